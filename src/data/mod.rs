@@ -1,0 +1,1 @@
+//! Decodes volumes and meshes from bytes into leaves. Knows no disk.

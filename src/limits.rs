@@ -1,0 +1,54 @@
+//! Every limit of the program in one struct, so that nothing a user types can exhaust the machine.
+//!
+//! Each limit is tested at n and at n + 1 (`tests/it/limits.rs`).
+
+/// The bounds within which a session works. All are generous; each error that one of them causes names the number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes of one source text.
+    pub source_bytes: usize,
+    /// Depth of brackets, blocks and prefix operators in a text.
+    pub nesting: usize,
+    /// Errors told for one input; the rest is counted.
+    pub errors: usize,
+    /// Depth of calls of user functions (recursion).
+    pub call_depth: usize,
+    /// Turns that all loops together may take while one input or question is answered.
+    pub loop_turns: usize,
+    /// Elements of one array, nested ones counted.
+    pub array_elements: usize,
+    /// Nodes of the expression graph of a session.
+    pub graph_nodes: usize,
+    /// Operations of one compiled program, after maps are expanded.
+    pub program_operations: usize,
+    /// Bytes that one task (mesh, picture, volume) may take by estimate.
+    pub memory_bytes: usize,
+    /// Bytes of one data file (volume, mesh).
+    pub data_bytes: usize,
+    /// Frames of one animation or numbered series.
+    pub frames: usize,
+    /// Pixels along one side of a picture.
+    pub picture_side: usize,
+    /// Inputs that can be undone.
+    pub undo_levels: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            source_bytes: 256 << 20,
+            nesting: 1_000,
+            errors: 50,
+            call_depth: 1_000,
+            loop_turns: 10_000_000,
+            array_elements: 10_000_000,
+            graph_nodes: 20_000_000,
+            program_operations: 8_000_000,
+            memory_bytes: 4 << 30,
+            data_bytes: 2 << 30,
+            frames: 10_000,
+            picture_side: 16_384,
+            undo_levels: 1_000,
+        }
+    }
+}

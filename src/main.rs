@@ -1,0 +1,3 @@
+//! The `yont` program: exit codes only.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! What a program means: definitions that depend on each other, lowered to expression graphs; sessions. Bytes come from the host.

@@ -1,0 +1,21 @@
+//! Data as a function: what a volume or a mesh must answer to be a leaf of an expression.
+
+use std::fmt;
+
+use super::interval::Interval;
+
+/// A function of a few arguments that is given by data. Immutable and shared between threads.
+pub trait Leaf: fmt::Debug + Send + Sync {
+    /// A hash of the content: equal leaves have equal fingerprints.
+    fn fingerprint(&self) -> u128;
+    /// What messages call it: the file's name.
+    fn name(&self) -> &str;
+    /// Number of arguments, at most 4.
+    fn arity(&self) -> usize;
+    /// The value at a point; `at.len()` is the arity. NaN in, NaN out.
+    fn value(&self, at: &[f64]) -> f64;
+    /// The value and its derivative by each argument (into `slope`).
+    fn gradient(&self, at: &[f64], slope: &mut [f64]) -> f64;
+    /// Bounds of all values over a box, the rounding of `value` included.
+    fn bounds(&self, over: &[Interval]) -> Interval;
+}

@@ -1,0 +1,26 @@
+//! Numbers of all kinds: reals, intervals rounded outward, duals, blocks of points. One meaning, many numbers.
+
+pub mod interval;
+pub mod leaf;
+pub mod op;
+
+pub use interval::Interval;
+pub use leaf::Leaf;
+pub use op::{Binary, Real, Ternary, Unary};
+
+/// What a kind of number (or a builder of expressions) must be able to do for a built-in to be written once over it.
+///
+/// `self` is the context: nothing for plain numbers, the graph for symbolic ones.
+pub trait Algebra {
+    /// One number of this kind.
+    type Number: Clone;
+
+    /// The number `value`.
+    fn constant(&mut self, value: f64) -> Self::Number;
+    /// A primitive of one operand.
+    fn unary(&mut self, op: Unary, a: Self::Number) -> Self::Number;
+    /// A primitive of two operands.
+    fn binary(&mut self, op: Binary, a: Self::Number, b: Self::Number) -> Self::Number;
+    /// A primitive of three operands.
+    fn ternary(&mut self, op: Ternary, a: Self::Number, b: Self::Number, c: Self::Number) -> Self::Number;
+}

@@ -1,0 +1,1 @@
+//! Pictures of functions: cameras, ray casting, plots, palettes, animations. Knows no language and no files.

@@ -1,0 +1,1 @@
+//! Boundaries of functions: the box hierarchy, marching cubes, checks, measures. Knows no language and no files.

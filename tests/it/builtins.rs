@@ -1,0 +1,1 @@
+//! The table of built-ins: every entry's example runs.

@@ -1,0 +1,1 @@
+//! Every evaluator agrees: reference, double and single blocks, gradients, intervals.

@@ -1,0 +1,1 @@
+//! Every example runs and gives what its first comment says.

@@ -1,0 +1,1 @@
+//! Graphs: folding, maps, derivatives.

@@ -1,0 +1,1 @@
+//! What programs mean: one case per rule of the language.

@@ -1,0 +1,26 @@
+//! The one integration binary: each module is a subject.
+
+mod builtins;
+mod cli;
+mod conformance;
+mod crash;
+mod data;
+mod diagnostics;
+mod examples;
+mod export;
+mod field;
+mod hostile;
+mod interrupts;
+mod language;
+mod limits;
+mod measure;
+mod mesh;
+mod number;
+mod oracle;
+mod parser;
+mod picture;
+mod propagation;
+mod prospero;
+mod repl;
+mod session;
+mod tidy;

@@ -1,0 +1,1 @@
+//! Volumes and Euler characteristics against closed forms.

@@ -1,0 +1,1 @@
+//! Meshes are closed, oriented, 2-manifold, and those of dense sampling.

@@ -1,0 +1,1 @@
+//! Intervals, duals and elementary functions.

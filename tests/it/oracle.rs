@@ -1,0 +1,1 @@
+//! The tree oracle against the compiled program.

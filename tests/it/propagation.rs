@@ -1,0 +1,1 @@
+//! Definitions that propagate: edited sessions equal fresh ones.

@@ -1,0 +1,1 @@
+//! A large operation list from text to picture.

@@ -1,0 +1,1 @@
+//! The layers, sizes and openings of the source files.
