@@ -142,7 +142,9 @@ impl fmt::Display for DataError {
             Self::TooFew { unit, promised, found } => {
                 write!(f, "the header promises {promised} {unit}, but there are only {found}")
             }
-            Self::TooMany { unit, promised } => write!(f, "there are more than the {promised} {unit} that the header promises"),
+            Self::TooMany { unit, promised } => {
+                write!(f, "there are more than the {promised} {unit} that the header promises")
+            }
             Self::NotANumber { line, word } => write!(f, "line {line}: `{word}` is not a number"),
             Self::Compression { encoding, reason } => write!(f, "the {encoding} data are broken: {reason}"),
             Self::Detached { file, reason } => write!(f, "the header's data file `{file}` cannot be read: {reason}"),

@@ -21,7 +21,11 @@ impl Range {
     }
 
     fn one(value: f64) -> Self {
-        if value.is_nan() { Self { undefined: true, ..Self::EMPTY } } else { Self { lo: value, hi: value, undefined: false } }
+        if value.is_nan() {
+            Self { undefined: true, ..Self::EMPTY }
+        } else {
+            Self { lo: value, hi: value, undefined: false }
+        }
     }
 }
 

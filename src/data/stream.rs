@@ -64,7 +64,12 @@ impl NumberType {
             "ushort" | "unsigned short" | "unsigned short int" | "uint16" | "uint16_t" => Self::Uint16,
             "int" | "signed int" | "int32" | "int32_t" => Self::Int32,
             "uint" | "unsigned int" | "uint32" | "uint32_t" => Self::Uint32,
-            "longlong" | "long long" | "long long int" | "signed long long" | "signed long long int" | "int64"
+            "longlong"
+            | "long long"
+            | "long long int"
+            | "signed long long"
+            | "signed long long int"
+            | "int64"
             | "int64_t" => Self::Int64,
             "ulonglong" | "unsigned long long" | "unsigned long long int" | "uint64" | "uint64_t" => Self::Uint64,
             "float" | "float32" => Self::Float32,

@@ -22,8 +22,7 @@ use super::volume::{Placement, Volume};
 /// A header that cannot be understood, a word that is no number, fewer or more numbers than the size says, more than the limit.
 pub fn decode(name: &str, bytes: &[u8], context: Context<'_>) -> Result<Volume, DataError> {
     let mut lines = Lines { rest: bytes, line: 0 };
-    let (line, words) =
-        lines.next_words().ok_or(DataError::MissingField { field: "size", example: "64 64 32" })?;
+    let (line, words) = lines.next_words().ok_or(DataError::MissingField { field: "size", example: "64 64 32" })?;
     let size = size(line, &words)?;
     let total = count(&size, NumberType::Float64, context)?;
     let (mut origin, mut spacing) = ([0.0; 3], [1.0; 3]);

@@ -124,8 +124,12 @@ impl Header {
             "dimension" => self.dimension = Some(value.parse().map_err(|_| unknown("a number of axes"))?),
             "sizes" => self.sizes = Some(list(value, size).ok_or_else(|| unknown("a list of sizes"))?),
             "spacings" => self.spacings = Some(list(value, maybe).ok_or_else(|| unknown("a list of numbers"))?),
-            "axis mins" | "axismins" => self.mins = Some(list(value, maybe).ok_or_else(|| unknown("a list of numbers"))?),
-            "axis maxs" | "axismaxs" => self.maxs = Some(list(value, maybe).ok_or_else(|| unknown("a list of numbers"))?),
+            "axis mins" | "axismins" => {
+                self.mins = Some(list(value, maybe).ok_or_else(|| unknown("a list of numbers"))?)
+            }
+            "axis maxs" | "axismaxs" => {
+                self.maxs = Some(list(value, maybe).ok_or_else(|| unknown("a list of numbers"))?)
+            }
             "centers" | "centerings" => {
                 self.cell_centred = Some(value.split_whitespace().map(|w| w.eq_ignore_ascii_case("cell")).collect());
             }
@@ -137,7 +141,8 @@ impl Header {
             }
             "line skip" | "lineskip" => self.line_skip = value.parse().map_err(|_| unknown("a number of lines"))?,
             "byte skip" | "byteskip" => {
-                self.byte_skip = value.parse().ok().filter(|&n| n >= -1).ok_or_else(|| unknown("a number of bytes, or -1"))?;
+                self.byte_skip =
+                    value.parse().ok().filter(|&n| n >= -1).ok_or_else(|| unknown("a number of bytes, or -1"))?;
             }
             "data file" | "datafile" => self.data_file = Some(data_file(value)?),
             _ => {}

@@ -28,8 +28,10 @@ pub fn decode(name: &str, bytes: &[u8], fetch: Fetch<'_>, context: Context<'_>) 
     let fetched;
     let payload = match &header.data_file {
         Some(file) => {
-            fetched = fetch(file)
-                .map_err(|error| DataError::Detached { file: stream::shown(file.as_bytes()), reason: error.to_string() })?;
+            fetched = fetch(file).map_err(|error| DataError::Detached {
+                file: stream::shown(file.as_bytes()),
+                reason: error.to_string(),
+            })?;
             &fetched[..]
         }
         None => &bytes[header.end..],
