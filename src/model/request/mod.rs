@@ -1,6 +1,10 @@
 //! What can be asked of an object of a session: a mesh, a picture, frames, a sampled field, values, measures. One meaning for the command
 //! line and the prompt, which only read options and show results.
 
+pub mod output;
+
+pub use output::{FORMATS, Format, Kind, Output, Target};
+
 use crate::field::Coordinate;
 
 /// How finely a boundary is searched.
@@ -52,15 +56,6 @@ impl Default for PictureOptions {
     }
 }
 
-/// Where an output goes.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Target {
-    /// A file, or a series if the name holds `{n}`.
-    Path(String),
-    /// Standard output in the format with this extension.
-    Standard(String),
-}
-
 /// How an animation or a numbered series runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timing {
@@ -76,11 +71,9 @@ impl Default for Timing {
     }
 }
 
-/// One output: everything that decides its bytes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Output {
-    /// Where.
-    pub target: Target,
+/// Everything that decides an output's bytes besides its [`Output`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
     /// Of what.
     pub view: View,
     /// If it is a picture.
