@@ -1,7 +1,9 @@
 //! What can be asked of an object of a session: a mesh, a picture, frames, a sampled field, values, measures. One meaning for the command
 //! line and the prompt, which only read options and show results.
 
+pub mod fields;
 pub mod output;
+pub mod subject;
 
 pub use output::{FORMATS, Format, Kind, Output, Target};
 
