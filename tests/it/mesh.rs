@@ -1,1 +1,272 @@
-//! Meshes are closed, oriented, 2-manifold, and those of dense sampling.
+//! Meshes: closed, oriented and 2-manifold for every shape, with the signs of dense sampling, the same bytes for any number of threads.
+
+use std::io::Cursor;
+
+use yont::export::{obj, ply, stl};
+use yont::interrupt::Interrupt;
+use yont::limits::Limits;
+use yont::number::Ternary;
+use yont::surface::boxes::Lattice;
+use yont::surface::brick::Bricks;
+use yont::surface::check::{Fault, Topology};
+use yont::surface::grid::BYTES_PER_VERTEX;
+use yont::surface::{Extraction, Grid, GridError, Mesh, SurfaceError, check, extract};
+use yont::vm::{Demand, Points, Shape};
+
+use crate::solids::{Ex, Field, HARD, KNOWN, ball, block, shape_of, sphere};
+
+fn verify(name: &str, extraction: &Extraction) -> Topology {
+    let topology = check(&extraction.mesh).unwrap_or_else(|fault| panic!("{name}: {fault}"));
+    for n in &extraction.mesh.normals {
+        let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
+        assert!((length - 1.0).abs() < 1e-9, "{name}: a normal of length {length}");
+    }
+    topology
+}
+
+#[test]
+fn every_mesh_is_closed_oriented_and_two_manifold() {
+    for case in KNOWN.iter().chain(HARD) {
+        for resolution in [1, 2, 3, 7, 8, 9, 16, 33, 40] {
+            verify(&format!("{} at {resolution}", case.name), &case.extract(resolution));
+        }
+    }
+}
+
+#[test]
+fn euler_characteristics_are_right() {
+    for case in KNOWN.iter().chain(HARD).filter(|case| case.euler.is_some()) {
+        let topology = verify(case.name, &case.extract(40));
+        assert_eq!(Some(topology.euler), case.euler, "{}", case.name);
+    }
+}
+
+/// Whole numbers that look random.
+fn noise(seed: u64) -> impl FnMut(u64) -> u64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1;
+    move |below| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) % below
+    }
+}
+
+/// Spheres and boxes, some with common faces and with faces on sample points, joined at random.
+fn random_solid(seed: u64, x: &Ex, y: &Ex, z: &Ex) -> Ex {
+    let mut pick = noise(seed);
+    let mut whole = sphere([0.0; 3], 0.7, [x, y, z]);
+    for _ in 0..8 {
+        let at: [f64; 3] = std::array::from_fn(|_| pick(9) as f64 * 0.25 - 1.0);
+        let size = pick(3) as f64 * 0.25 + 0.25;
+        let part = match pick(2) {
+            0 => sphere(at, size, [x, y, z]),
+            _ => block([size; 3], x.clone() - at[0], y.clone() - at[1], z.clone() - at[2]),
+        };
+        whole = match pick(5) {
+            0 => whole.ternary(Ternary::Intersection, &-part, 1.0),
+            1 => whole.ternary(Ternary::Union, &part, 0.0),
+            2 => whole.max(&part),
+            3 => whole.min(&-part),
+            _ => whole.ternary(Ternary::Union, &part, 1.0),
+        };
+    }
+    whole
+}
+
+#[test]
+fn random_solids_with_common_faces_are_closed_and_have_the_signs_of_dense_sampling() {
+    for seed in 0..40 {
+        let field = |x: Ex, y: Ex, z: Ex| random_solid(seed, &x, &y, &z);
+        let grid = Grid::new(&[[-1.0, 1.0]; 3], 24).expect("a grid");
+        let signs = shape_of(field, 3, Demand::Sign);
+        let extraction = extract(&signs, &grid, &Limits::default(), &Interrupt::default()).expect("a mesh");
+        verify(&format!("solid {seed}"), &extraction);
+        compare_signs(&format!("solid {seed}"), &signs, &shape_of(field, 3, Demand::Value), &grid);
+    }
+}
+
+#[test]
+fn signs_are_those_of_dense_sampling() {
+    for case in KNOWN.iter().chain(HARD) {
+        compare_signs(case.name, &case.shape(), &shape_of(case.field, 3, Demand::Value), &case.grid(27));
+    }
+}
+
+/// Every sample point of the hierarchy against a plain loop over the whole grid with the values' program.
+fn compare_signs(name: &str, signs: &Shape, values: &Shape, grid: &Grid) {
+    let bricks = Bricks::survey(signs, grid, &Limits::default(), &Interrupt::default()).expect("few vertices");
+    let [nx, ny, nz] = grid.counts();
+    let mut points = Points::<f64>::new();
+    let xs: Vec<f64> = (0..nx).map(|i| grid.coordinate(0, i)).collect();
+    let mut out = vec![0.0; nx];
+    for k in 0..nz {
+        for j in 0..ny {
+            let (ys, zs) = (vec![grid.coordinate(1, j); nx], vec![grid.coordinate(2, k); nx]);
+            points.eval(&values.program, &[&xs, &ys, &zs], &mut out);
+            for (i, &value) in out.iter().enumerate() {
+                assert_eq!(bricks.is_inside([i, j, k]), value >= 0.0, "{name} at {:?}: {value}", [i, j, k]);
+            }
+        }
+    }
+}
+
+fn stl_bytes(mesh: &Mesh) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    stl::write(mesh, &mut bytes).expect("writing to memory");
+    bytes
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_a_byte() {
+    for case in KNOWN.iter().chain(HARD) {
+        let of = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let Extraction { mesh, report } = pool.install(|| case.extract(40));
+            let mut text = Vec::new();
+            obj::write(&mesh, &mut text).expect("writing to memory");
+            (stl_bytes(&mesh), text, report)
+        };
+        let one = of(1);
+        for threads in [2, 8] {
+            assert!(of(threads) == one, "{} with {threads} threads", case.name);
+        }
+    }
+}
+
+#[test]
+fn stl_reads_back_as_the_same_closed_mesh() {
+    for case in KNOWN.iter().chain(HARD) {
+        let mesh = case.extract(32).mesh;
+        let bytes = stl_bytes(&mesh);
+        assert_eq!(bytes.len(), 84 + 50 * mesh.triangles.len());
+        let read = stl_io::read_stl(&mut Cursor::new(bytes)).expect("a readable file");
+        let again = Mesh {
+            positions: read.vertices.iter().map(|v| [v[0], v[1], v[2]].map(f64::from)).collect(),
+            normals: vec![[0.0, 0.0, 1.0]; read.vertices.len()],
+            triangles: read.faces.iter().map(|f| f.vertices.map(|v| v as u32)).collect(),
+        };
+        let (ours, theirs) =
+            (check(&mesh).expect("closed"), check(&again).unwrap_or_else(|f| panic!("{}: {f}", case.name)));
+        assert_eq!(ours, theirs, "{}", case.name);
+    }
+}
+
+#[test]
+fn obj_and_ply_hold_the_whole_mesh() {
+    let mesh = KNOWN[0].extract(12).mesh;
+    let (mut text, mut binary) = (Vec::new(), Vec::new());
+    obj::write(&mesh, &mut text).expect("writing to memory");
+    ply::write(&mesh, &mut binary).expect("writing to memory");
+    let text = String::from_utf8(text).expect("text");
+    let read: Vec<[f64; 3]> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("v "))
+        .map(|line| {
+            let numbers: Vec<f64> = line.split(' ').map(|c| c.parse().expect("a number")).collect();
+            [numbers[0], numbers[1], numbers[2]]
+        })
+        .collect();
+    assert_eq!(read, mesh.positions, "digits that read back the same");
+    assert_eq!(text.lines().filter(|line| line.starts_with("f ")).count(), mesh.triangles.len());
+    let end = b"end_header\n";
+    let header = binary.windows(end.len()).position(|w| w == end).expect("a header") + end.len();
+    assert_eq!(binary.len(), header + 24 * mesh.positions.len() + 13 * mesh.triangles.len());
+}
+
+#[test]
+fn the_report_says_which_faces_cut() {
+    let cut = |field: Field| {
+        let shape = shape_of(field, 3, Demand::Sign);
+        let grid = Grid::new(&[[-1.0, 1.0]; 3], 16).expect("a grid");
+        extract(&shape, &grid, &Limits::default(), &Interrupt::default()).expect("a mesh").report.cut
+    };
+    let none = [[false; 2]; 3];
+    assert_eq!(cut(ball), none, "a ball that touches the faces is not cut");
+    assert_eq!(cut(|x, y, z| block([1.0; 3], x, y, z)), none, "a box that fills the space is not cut");
+    assert_eq!(cut(|x, y, z| ball(x - 0.5, y, z)), [[false, true], [false; 2], [false; 2]]);
+    assert_eq!(cut(|x, _, _| 0.25 - x.abs()), [[false; 2], [true; 2], [true; 2]]);
+}
+
+#[test]
+fn undefined_points_are_counted_and_one_is_named() {
+    let shape = shape_of(|x, y, z| x.sqrt() + ball(x, y, z), 3, Demand::Sign);
+    let grid = Grid::new(&[[-1.0, 1.0]; 3], 16).expect("a grid");
+    let report = extract(&shape, &grid, &Limits::default(), &Interrupt::default()).expect("a mesh").report;
+    assert!(report.counters.undefined > 0);
+    let example = report.counters.example.expect("an undefined point");
+    assert!(example.len() == 3 && example[0] < 0.0, "{example:?}");
+}
+
+#[test]
+fn what_cannot_be_meshed_is_refused() {
+    let none = Grid::new(&[[0.0, 0.0], [0.0, 1.0], [0.0, 1.0]], 8);
+    assert_eq!(none, Err(GridError::Bounds(0)));
+    assert_eq!(Grid::new(&[[0.0, 1.0], [0.0, f64::INFINITY], [0.0, 1.0]], 8), Err(GridError::Bounds(1)));
+    assert_eq!(Grid::new(&[[0.0, 1.0], [0.0, 1.0], [0.0, f64::NAN]], 8), Err(GridError::Bounds(2)));
+    assert_eq!(Grid::new(&[[0.0, 1.0]; 3], 0), Err(GridError::Resolution(0)));
+    assert_eq!(Grid::new(&[[0.0, 1.0]; 4], 8), Err(GridError::Dimension(4)));
+    let (plane, space) = (Grid::new(&[[-1.0, 1.0]; 2], 8).expect("2-D"), Grid::new(&[[-1.0, 1.0]; 3], 8).expect("3-D"));
+    let interrupt = Interrupt::default();
+    assert_eq!(
+        extract(&KNOWN[0].shape(), &plane, &Limits::default(), &interrupt).err(),
+        Some(SurfaceError::Dimension(3, 3))
+    );
+    interrupt.cancel();
+    assert_eq!(extract(&KNOWN[0].shape(), &space, &Limits::default(), &interrupt).err(), Some(SurfaceError::Cancelled));
+}
+
+#[test]
+fn a_mesh_that_takes_too_much_memory_is_refused() {
+    let case = HARD.iter().find(|case| case.name == "gyroid cut by the space").expect("the gyroid");
+    let (shape, grid) = (case.shape(), case.grid(48));
+    let vertices = case.extract(48).mesh.positions.len();
+    let within = |memory_bytes| {
+        extract(&shape, &grid, &Limits { memory_bytes, ..Limits::default() }, &Interrupt::default()).map(|_| ())
+    };
+    let enough = vertices * BYTES_PER_VERTEX;
+    assert!(enough as u64 > grid.estimated_bytes(), "the mesh is larger than the estimate");
+    assert_eq!(within(enough), Ok(()));
+    assert_eq!(within(enough - 1), Err(SurfaceError::Memory(enough - 1)), "known after the caps");
+    assert_eq!(within(enough * 3 / 4), Err(SurfaceError::Memory(enough * 3 / 4)), "known while it is sampled");
+    let estimate = grid.estimated_bytes() as usize;
+    assert_eq!(within(estimate - 1), Err(SurfaceError::Memory(estimate - 1)), "known before it begins");
+}
+
+#[test]
+fn progress_reaches_its_end() {
+    let interrupt = Interrupt::default();
+    extract(&KNOWN[0].shape(), &KNOWN[0].grid(40), &Limits::default(), &interrupt).expect("a mesh");
+    let (done, total) = interrupt.progress();
+    assert_eq!((done, total), (41 * 41 * 41, 41 * 41 * 41));
+}
+
+/// A tetrahedron.
+fn tetrahedron() -> Mesh {
+    Mesh {
+        positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        normals: vec![[0.0, 0.0, 1.0]; 4],
+        triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+    }
+}
+
+#[test]
+fn the_checker_finds_every_kind_of_fault() {
+    let good = check(&tetrahedron()).expect("closed");
+    assert_eq!((good.euler, good.components, good.genus, good.edges), (2, 1, 0, 6));
+    let fault = |change: &dyn Fn(&mut Mesh)| {
+        let mut mesh = tetrahedron();
+        change(&mut mesh);
+        check(&mesh).expect_err("a fault")
+    };
+    assert!(matches!(fault(&|m| m.positions[2][1] = f64::NAN), Fault::NotFinite(2)));
+    assert!(matches!(fault(&|m| m.positions[2][1] = 1e39), Fault::NotFinite(2)));
+    assert!(matches!(fault(&|m| m.triangles[1][0] = 9), Fault::NoSuchVertex(1)));
+    assert!(matches!(fault(&|m| m.triangles[1][0] = 1), Fault::Degenerate(1, _)));
+    assert!(matches!(fault(&|m| m.positions[1] = [1e-60, 0.0, 0.0]), Fault::Coincident(0, 1, _)));
+    assert!(matches!(fault(&|m| m.triangles[3] = [0, 2, 3]), Fault::Repeated(..)));
+    assert!(matches!(fault(&|m| m.triangles.truncate(3)), Fault::Open(..)));
+    let two = |m: &mut Mesh| {
+        m.positions.extend([[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]);
+        m.triangles.extend([[0, 4, 5], [0, 6, 4], [4, 6, 5], [5, 6, 0]]);
+    };
+    assert!(matches!(fault(&two), Fault::Fans(_)), "two tetrahedra that share a vertex");
+}
