@@ -2,5 +2,8 @@
 
 pub mod gif;
 pub mod nrrd;
+pub mod obj;
+pub mod ply;
 pub mod png;
 pub mod quantise;
+pub mod stl;

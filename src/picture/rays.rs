@@ -321,7 +321,7 @@ impl<'a, T, F> Caster<'a, T, F> {
                 let ray = (j - self.from[1]) * self.size[0] + (i - self.from[0]);
                 let Ray { enter, leave, .. } = self.rays[ray];
                 let (from, to) = (near.max(enter), far.min(leave));
-                if from <= to && self.hits[ray].is_none() {
+                if from < to && self.hits[ray].is_none() {
                     self.segments.push(Segment { ray, from, to });
                 }
             }

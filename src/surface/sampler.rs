@@ -31,7 +31,6 @@ impl Counters {
 }
 
 /// Evaluates programs of one [`Shape`] (its own and those specialised from it) at points of the space. Allocates only while it warms up.
-#[derive(Debug)]
 pub struct Sampler {
     dimension: usize,
     fixed: Vec<(f64, Vec<f64>)>,
