@@ -26,8 +26,8 @@ pub struct Names {
     pub reads: Vec<(Name, Span)>,
     /// Calls of names from outside: name, place, number of arguments.
     pub calls: Vec<(Name, Span, usize)>,
-    /// Calls of built-in functions: name as written, place.
-    pub builtins: Vec<(Name, Span)>,
+    /// Calls of built-in functions: name as written, place, number of arguments.
+    pub builtins: Vec<(Name, Span, usize)>,
     /// Whether a set operation stands in it, so that the system of R-functions matters.
     pub uses_system: bool,
     /// Coordinates that are named anywhere, bit i for x(i+1).
@@ -181,7 +181,7 @@ impl Walk {
 
     fn call(&mut self, name: &Name, span: Span, arguments: usize) {
         if builtins::find(name).is_some() {
-            self.names.builtins.push((name.clone(), span));
+            self.names.builtins.push((name.clone(), span, arguments));
             let upper = name.to_ascii_uppercase();
             self.names.uses_system |= upper == "UNION" || upper == "INTERSECTION";
             return;

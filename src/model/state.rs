@@ -23,6 +23,18 @@ pub enum Kept {
     Failed(Arc<Diagnostic>),
 }
 
+impl Kept {
+    /// The result of a definition if one of its names had this value.
+    #[must_use]
+    pub fn with(definition: &Definition, name: &str, value: Value) -> Self {
+        if definition.outputs.len() == 1 {
+            return Self::One(value);
+        }
+        let pick = |n: &Name| (**n == *name).then(|| value.clone());
+        Self::Many(definition.outputs.iter().map(pick).collect())
+    }
+}
+
 /// A geometric type as declared.
 #[derive(Clone, Debug)]
 pub struct Declared {
@@ -72,6 +84,7 @@ pub struct State {
     readers: FxHashMap<Name, Readers>,
     dependents: FxHashMap<DefinitionId, Readers>,
     journal: Vec<Change>,
+    coordinates: u16,
     /// Definitions whose values are to be found again, oldest first.
     stale: Vec<Arc<Definition>>,
 }
@@ -152,13 +165,41 @@ impl State {
     }
 
     /// Makes a definition known to what it reads and what it is linked to.
-    pub fn register(&mut self, definition: &Arc<Definition>) {
+    pub fn register(&mut self, definition: &Arc<Definition>, coordinates: u16) {
+        self.register_coordinates(coordinates);
         for (name, _) in &definition.reads {
             self.readers.entry(name.clone()).or_default().push(definition);
         }
         for link in definition.links() {
             self.dependents.entry(link.id).or_default().push(definition);
         }
+    }
+
+    /// Notes coordinates that a text names, bit i for x(i+1).
+    pub fn register_coordinates(&mut self, coordinates: u16) {
+        self.coordinates |= coordinates;
+    }
+
+    /// The coordinates that any text of the session has named.
+    #[must_use]
+    pub fn coordinates_named(&self) -> u16 {
+        self.coordinates
+    }
+
+    /// Marks a definition as one whose value is to be found.
+    pub fn add_stale(&mut self, definition: &Arc<Definition>) {
+        self.stale.push(definition.clone());
+    }
+
+    /// How many are marked, for [`State::stale_truncate`].
+    #[must_use]
+    pub fn stale_len(&self) -> usize {
+        self.stale.len()
+    }
+
+    /// Forgets the marks beyond a number.
+    pub fn stale_truncate(&mut self, length: usize) {
+        self.stale.truncate(length);
     }
 
     /// Gives its names a new definition; what depends on them is stale.

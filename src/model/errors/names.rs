@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
+use rustc_hash::FxHashSet;
+
 use crate::builtins::{self, Builtin};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::near::{Candidate, suggest};
 use crate::field::Coordinate;
 use crate::source::Span;
 use crate::syntax::tree::{Name, Parameter, Statement, StatementKind};
@@ -13,47 +16,48 @@ use super::super::state::State;
 use super::super::value::Value;
 use super::count;
 
-/// A name that nothing defines; a note if the prompt may still be told. `places` are where it is read, the first one underlined.
-pub fn unknown_name(state: &State, name: &str, places: &[Span], note: bool) -> Diagnostic {
+/// A name that nothing defines; a note if the prompt may still be told. `places` are where it is read, the first one underlined;
+/// `excused` are names of statements that failed, which may be meant all the same.
+pub fn unknown_name(
+    state: &State,
+    name: &str,
+    places: &[Span],
+    note: bool,
+    excused: &FxHashSet<Name>,
+) -> Diagnostic {
     let title = if note { format!("`{name}` is not defined yet") } else { format!("`{name}` is not defined") };
     let mut told =
         if note { Diagnostic::note("unknown-name", title) } else { Diagnostic::error("unknown-name", title) };
     for (i, place) in places.iter().enumerate() {
         told = if i == 0 { told.at(*place, "unknown name") } else { told.see(*place, "also read here") };
     }
-    if note {
-        return told;
-    }
     if let Some(builtin) = builtins::find(name) {
         return told.help(format!("`{}` is a built-in function: {}", builtin.name, builtin.signature()));
     }
-    match near(state, name) {
-        Some((near, unread)) if unread => told.help(format!("did you mean `{near}`, which is defined and never read?")),
-        Some((near, _)) => told.help(format!("did you mean `{near}`?")),
-        None => told.help(format!("define it: `{name} = ...;`, above or below")),
+    let near = near(state, name, excused);
+    match &near[..] {
+        [] if note => told,
+        [] => told.help(format!("define it: `{name} = ...;`, above or below")),
+        all => {
+            let all: Vec<String> = all.iter().map(|n| format!("`{n}`")).collect();
+            told.help(format!("did you mean {}?", all.join(" or ")))
+        }
     }
 }
 
-/// The defined name that is nearest to `name`, names that nothing reads first; and whether nothing reads it.
-fn near(state: &State, name: &str) -> Option<(String, bool)> {
-    let wanted = name.to_lowercase();
-    let close = |candidate: &str| {
-        let candidate = candidate.to_lowercase();
-        let distance = strsim::damerau_levenshtein(&wanted, &candidate);
-        let longest = wanted.chars().count().max(candidate.chars().count());
-        let letters = distance <= 1 && longest <= 3 || distance * 3 <= longest;
-        (letters && distance < longest).then_some(distance)
-    };
-    let unread = |n: &Name| state.readers(n).next().is_none();
-    let user = state.names().filter_map(|n| {
-        let distance = close(n)?;
-        // Settings such as x1min are read by nothing, and are no candidates for that.
-        let unread = unread(n) && !super::super::environment::is_setting(n);
-        Some((!unread, distance, n.to_string()))
-    });
-    let known = builtins::all().filter_map(|b| Some((true, close(b.name)? + 1, b.name.to_owned())));
-    let best = user.chain(known).min()?;
-    Some((best.2, !best.0))
+/// The defined names that are nearest to `name`, names that nothing reads first.
+fn near(state: &State, name: &str, excused: &FxHashSet<Name>) -> Vec<String> {
+    // Settings such as x1min are read by nothing, and are not more likely for that.
+    let unread = |n: &Name| state.readers(n).next().is_none() && !super::super::environment::is_setting(n);
+    let user = state.names().map(|n| Candidate { name: n, preferred: unread(n) });
+    let failed = excused.iter().map(|n| Candidate { name: n, preferred: false });
+    let known = builtins::all().map(|b| Candidate { name: b.name, preferred: false });
+    suggest(name, user.chain(failed).chain(known)).into_iter().map(str::to_owned).collect()
+}
+
+/// A name that a statement which failed would have defined. Never told: the failure was.
+pub fn excused(name: &str) -> Diagnostic {
+    Diagnostic::note("excused", format!("`{name}` failed to be defined"))
 }
 
 /// A name that PRINT or an expression needs and that is defined only further down.

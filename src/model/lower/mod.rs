@@ -319,11 +319,11 @@ impl<'a> Lower<'a> {
 
     fn unknown(&self, name: &Name, span: Span) -> Fault {
         if self.world.excused.contains(name) {
-            return Fault::Follows(Arc::new(errors::unknown_name(self.state, name, &[span], false)));
+            return Fault::Follows(Arc::new(errors::excused(name)));
         }
         match self.world.later.get(name) {
             Some(place) => errors::defined_later(name, span, *place).into(),
-            None => errors::unknown_name(self.state, name, &[span], false).into(),
+            None => errors::unknown_name(self.state, name, &[span], false, self.world.excused).into(),
         }
     }
 
