@@ -23,7 +23,9 @@ impl Algebra for Graph {
             (Unary::Abs, &Node::Unary(Unary::Neg, inner)) => self.unary(Unary::Abs, inner),
             (Unary::Powi(n), &Node::Unary(Unary::Neg | Unary::Abs, inner)) if n % 2 == 0 => self.unary(op, inner),
             (Unary::Abs, &Node::Unary(Unary::Abs, _)) => a,
-            (Unary::Floor | Unary::Ceil | Unary::Round, &Node::Unary(Unary::Floor | Unary::Ceil | Unary::Round, _)) => a,
+            (Unary::Floor | Unary::Ceil | Unary::Round, &Node::Unary(Unary::Floor | Unary::Ceil | Unary::Round, _)) => {
+                a
+            }
             _ => self.intern(Node::Unary(op, a)),
         }
     }

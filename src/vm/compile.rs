@@ -125,11 +125,17 @@ fn needs(graph: &Graph, root: NodeId, reached: &[bool]) -> Vec<u32> {
     need
 }
 
-/// Which questions about each node's value matter: a set of the constants below.
+/// Which questions about each node's value matter: a set of the constants below, named as in [`Side`].
 mod wanted {
     pub(super) const VALUE: u8 = 1;
     pub(super) const INSIDE: u8 = 2;
-    pub(super) const COMPLEMENT: u8 = 4;
+    pub(super) const UPPER: u8 = 4;
+    pub(super) const LOWER: u8 = 8;
+
+    /// What is asked of the operand of a complement.
+    pub(super) fn complement(want: u8) -> u8 {
+        (if want & (INSIDE | UPPER) != 0 { LOWER } else { 0 }) | (if want & LOWER != 0 { UPPER } else { 0 })
+    }
 }
 
 /// What each node is wanted for, from the root down. Signs are passed on through set operations, complements and the branches of a
@@ -142,11 +148,7 @@ fn wants(graph: &Graph, root: NodeId, reached: &[bool], demand: Demand) -> Vec<u
         let node = graph.node(NodeId(index as u32));
         match node {
             _ if want & wanted::VALUE != 0 => node.for_each_operand(|e| wants[e.index()] |= wanted::VALUE),
-            Node::Unary(Unary::Neg, a) => {
-                let flipped = if want & wanted::INSIDE != 0 { wanted::COMPLEMENT } else { 0 };
-                let back = if want & wanted::COMPLEMENT != 0 { wanted::INSIDE } else { 0 };
-                wants[a.index()] |= flipped | back;
-            }
+            Node::Unary(Unary::Neg, a) => wants[a.index()] |= wanted::complement(want),
             Node::Binary(Binary::Min | Binary::Max, a, b) => {
                 wants[a.index()] |= want;
                 wants[b.index()] |= want;
@@ -167,7 +169,7 @@ fn wants(graph: &Graph, root: NodeId, reached: &[bool], demand: Demand) -> Vec<u
 }
 
 /// The max or min that has the same sign as an R-function whose parameter is a number in its range.
-fn extreme_of(op: Ternary, parameter: Option<f64>) -> Option<Binary> {
+pub(crate) fn extreme_of(op: Ternary, parameter: Option<f64>) -> Option<Binary> {
     let parameter = parameter?;
     let alpha = parameter > -1.0 && parameter <= 1.0;
     match op {
@@ -238,11 +240,14 @@ impl<'a> Emitter<'a> {
 
     /// The question that is asked of a node of which only a sign matters.
     fn side(&self, node: NodeId) -> Option<Side> {
-        match self.wants[node.index()] {
-            wanted::INSIDE => Some(Side::Inside),
-            wanted::COMPLEMENT => Some(Side::Complement),
-            want if want & wanted::VALUE == 0 => Some(Side::Both),
-            _ => None,
+        let want = self.wants[node.index()];
+        let above = want & (wanted::INSIDE | wanted::UPPER) != 0;
+        match (want & wanted::VALUE != 0, above, want & wanted::LOWER != 0) {
+            (true, ..) => None,
+            (_, true, true) => Some(Side::Both),
+            (_, _, true) => Some(Side::Lower),
+            _ if want & wanted::UPPER != 0 => Some(Side::Upper),
+            _ => Some(Side::Inside),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Ranges over boxes, up to 64 boxes at a time, and which operands can never matter in each: what `specialise` shortens by.
 
+use super::compile::extreme_of;
 use super::kernels::{Kind, Operands, Store, run};
 use super::program::{Op, Program, Side};
 use super::specialise::Scratch;
@@ -104,13 +105,9 @@ impl Kind for Ranges {
                     None => Pick::Neither,
                 })
             }
-            Op::Ternary(Ternary::Union, [a, b, _]) | Op::Join(Ternary::Union | Ternary::UnionSmooth, a, b, _) => {
-                // The parameter of `Join` is a number; where it varies it may be undefined itself, so both stay.
-                if matches!(op, Op::Ternary(..)) {
-                    return;
-                }
+            Op::Join(op, a, b, number) if extreme_of(op, Some(number)) == Some(Binary::Max) => {
                 let (a, b) = (operands.of(a), operands.of(b));
-                pick(lanes, |i| by_definition(Self::get(a, i), Self::get(b, i), Self::get(result, i)))
+                pick(lanes, |i| by_definition(Self::get(a, i), Self::get(b, i)))
             }
             ref op if is_truth(op) => pick(lanes, |i| match certainty(Self::get(result, i)) {
                 Some(holds) => Pick::Known(holds),
@@ -172,32 +169,23 @@ fn certainty(a: Interval) -> Option<bool> {
 /// signs could.
 #[inline(always)]
 fn by_value(op: Binary, a: Interval, b: Interval) -> Pick {
-    let (low, high, low_pick, high_pick) =
-        if op == Binary::Min { (a, b, Pick::First, Pick::Second) } else { (b, a, Pick::Second, Pick::First) };
-    // Min takes the low one; an undefined operand undoes it. Max takes the high one, and leaves an undefined one aside.
-    let below = low.hi < high.lo;
-    let above = high.hi < low.lo;
-    if op == Binary::Min {
-        if below && !high.undefined {
-            return low_pick;
-        }
-        if above && !low.undefined {
-            return high_pick;
-        }
+    let (first_less, second_less) = (a.hi < b.lo, b.hi < a.lo);
+    let (first, second) = if op == Binary::Min { (first_less, second_less) } else { (second_less, first_less) };
+    // An undefined operand undoes a min; a max leaves it aside, so that it must not be the one that is kept.
+    let (a_suffers, b_suffers) =
+        if op == Binary::Min { (b.undefined, a.undefined) } else { (a.undefined, b.undefined) };
+    if first && !a_suffers {
+        Pick::First
+    } else if second && !b_suffers {
+        Pick::Second
     } else {
-        if below && !high.undefined {
-            return high_pick;
-        }
-        if above && !low.undefined {
-            return low_pick;
-        }
+        Pick::Neither
     }
-    Pick::Neither
 }
 
 /// An R-union with an operand that is nowhere defined is the other one.
 #[inline(always)]
-fn by_definition(a: Interval, b: Interval, _result: Interval) -> Pick {
+fn by_definition(a: Interval, b: Interval) -> Pick {
     if b.is_empty() {
         Pick::First
     } else if a.is_empty() {
@@ -210,39 +198,31 @@ fn by_definition(a: Interval, b: Interval, _result: Interval) -> Pick {
 /// The operand that alone decides the sign of a min or max all over the box.
 #[inline(always)]
 fn by_sign(op: Binary, side: Side, a: Interval, b: Interval) -> Pick {
-    let picks = |side| if op == Binary::Max { union_sign(side, a, b) } else { intersection_sign(side, a, b) };
-    match side {
-        Side::Inside | Side::Complement => picks(side),
-        Side::Both => {
-            let inside = picks(Side::Inside);
-            if inside == picks(Side::Complement) { inside } else { Pick::Neither }
+    match (side, op) {
+        (Side::Inside, Binary::Max) => {
+            preferred(a.is_positive() || b.is_negative(), b.is_positive() || a.is_negative(), op, a, b)
         }
+        (Side::Inside, _) => {
+            preferred(a.is_negative() || b.is_positive(), b.is_negative() || a.is_positive(), op, a, b)
+        }
+        (Side::Upper, _) => by_class(op, a, b, |x| x.is_positive(), |x| x.hi < 0.0),
+        (Side::Lower, _) => by_class(op, a, b, positive, |x| x.hi <= 0.0),
+        (Side::Both, _) => by_value(op, a, b),
     }
 }
 
+/// The operand whose class is that of the min or max, the classes being `top` (and defined), `bottom` and undefined.
 #[inline(always)]
-fn union_sign(side: Side, a: Interval, b: Interval) -> Pick {
-    let (first, second) = if side == Side::Inside {
-        // Inside where one is: an operand that is outside throughout changes nothing, one that is inside throughout decides.
-        (a.is_positive() || b.is_negative(), b.is_positive() || a.is_negative())
-    } else {
-        // At most 0 where both are; an undefined operand leaves the other one, so it must not be what is left.
-        (positive(a) || (b.hi <= 0.0 && !a.undefined) || b.is_empty(), positive(b) || (a.hi <= 0.0 && !b.undefined) || a.is_empty())
+fn by_class(op: Binary, a: Interval, b: Interval, top: fn(Interval) -> bool, bottom: fn(Interval) -> bool) -> Pick {
+    let keeps = |a: Interval, b: Interval| {
+        if op == Binary::Max {
+            // The other one may be undefined and is left aside then; but this one must stand where the other is defined.
+            top(a) || (bottom(b) && !a.undefined) || b.is_empty()
+        } else {
+            a.is_empty() || (bottom(a) && !a.undefined && !b.undefined) || top(b)
+        }
     };
-    preferred(first, second, a, b, Binary::Max)
-}
-
-#[inline(always)]
-fn intersection_sign(side: Side, a: Interval, b: Interval) -> Pick {
-    let (first, second) = if side == Side::Inside {
-        // Inside where both are: an operand that is outside throughout decides, one that is inside throughout changes nothing.
-        (a.is_negative() || b.is_positive(), b.is_negative() || a.is_positive())
-    } else {
-        // At most 0 where one is and both are defined.
-        let at_most = |x: Interval, y: Interval| x.hi <= 0.0 && !x.undefined && !y.undefined;
-        (a.is_empty() || at_most(a, b) || positive(b), b.is_empty() || at_most(b, a) || positive(a))
-    };
-    preferred(first, second, a, b, Binary::Min)
+    preferred(keeps(a, b), keeps(b, a), op, a, b)
 }
 
 /// Positive and defined throughout.
@@ -251,16 +231,14 @@ fn positive(a: Interval) -> bool {
     a.lo > 0.0 && !a.undefined
 }
 
-/// Of two operands of which each would do, or neither: what the values say.
+/// Where both operands would do, or neither: what the values say.
 #[inline(always)]
-fn preferred(first: bool, second: bool, a: Interval, b: Interval, op: Binary) -> Pick {
+fn preferred(first: bool, second: bool, op: Binary, a: Interval, b: Interval) -> Pick {
     match (first, second) {
         (true, false) => Pick::First,
         (false, true) => Pick::Second,
-        (true, true) => match by_value(op, a, b) {
-            Pick::Neither => Pick::First,
-            pick => pick,
-        },
+        (true, true) if by_value(op, a, b) == Pick::Second => Pick::Second,
+        (true, true) => Pick::First,
         (false, false) => by_value(op, a, b),
     }
 }

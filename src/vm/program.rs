@@ -18,14 +18,17 @@ pub enum Demand {
 /// A value within a program: the inputs come first, then the results of the operations in their order.
 pub(crate) type Value = u32;
 
-/// Which question about a value is asked where only a sign matters.
+/// Which question about a value is asked where only a sign matters. Below a complement more than inside or not must be kept: an
+/// undefined value stays undefined there, while a negative one turns positive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     /// Whether it is >= 0; undefined is not.
     Inside,
-    /// Whether it is <= 0; undefined is not. Asked below an odd number of complements.
-    Complement,
-    /// Both.
+    /// Whether it is >= 0, < 0 or undefined.
+    Upper,
+    /// Whether it is <= 0, > 0 or undefined.
+    Lower,
+    /// Both of the latter.
     Both,
 }
 
