@@ -57,7 +57,9 @@ fn loops_in(body: &Body) -> Option<Diagnostic> {
 /// The first loop whose condition reads nothing that its body assigns.
 fn loops(block: &[Statement]) -> Option<Diagnostic> {
     block.iter().find_map(|statement| match &statement.kind {
-        StatementKind::While { condition, body } => never_steps(condition, body, statement.span).or_else(|| loops(body)),
+        StatementKind::While { condition, body } => {
+            never_steps(condition, body, statement.span).or_else(|| loops(body))
+        }
         StatementKind::For { body, .. } => loops(body),
         StatementKind::If { then, otherwise, .. } => {
             loops(then).or_else(|| loops(otherwise.as_deref().unwrap_or_default()))

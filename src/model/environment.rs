@@ -119,9 +119,12 @@ impl Object {
         let add: Vec<String> = missing.iter().map(|c| format!("{c}min = -10; {c}max = 10;")).collect();
         let options: Vec<String> = missing.iter().map(|c| format!("{c}=-10:10")).collect();
         let which: Vec<String> = missing.iter().map(ToString::to_string).collect();
-        Err(Diagnostic::error("no-bounds", format!("the modelling space of `{}` has no bounds along {}", self.name, which.join(", ")))
-            .help(format!("add to the script: {}", add.join(" ")))
-            .help(format!("or on the command line: --bounds {}", options.join(","))))
+        Err(Diagnostic::error(
+            "no-bounds",
+            format!("the modelling space of `{}` has no bounds along {}", self.name, which.join(", ")),
+        )
+        .help(format!("add to the script: {}", add.join(" ")))
+        .help(format!("or on the command line: --bounds {}", options.join(","))))
     }
 }
 

@@ -114,7 +114,8 @@ impl<'s> Input<'s> {
 
     fn outcome(mut self, accepted: bool, events: Vec<Event>) -> Outcome {
         // In the order of the text; the ones without a place come last.
-        self.diagnostics.sort_by_key(|d| d.labels.first().map_or((u32::MAX, u32::MAX), |l| (l.span.source.0, l.span.start)));
+        self.diagnostics
+            .sort_by_key(|d| d.labels.first().map_or((u32::MAX, u32::MAX), |l| (l.span.source.0, l.span.start)));
         let errors = self.diagnostics.iter().filter(|d| d.is_error()).count();
         let limit = self.session.limits.errors;
         if errors > limit {
@@ -327,7 +328,8 @@ impl<'s> Input<'s> {
         for name in &definition.outputs {
             let place = definition.place();
             let before = self.defined.insert(name.clone(), (place, None));
-            if let (Some((first, Some(reader))), true) = (before, definition.bases.is_empty() && self.mode == Mode::Script)
+            if let (Some((first, Some(reader))), true) =
+                (before, definition.bases.is_empty() && self.mode == Mode::Script)
             {
                 self.tell(errors::redefined(name, first, reader, place));
             }

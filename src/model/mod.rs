@@ -9,6 +9,7 @@ mod errors;
 mod input;
 mod lower;
 mod names;
+mod objects;
 mod report;
 mod session;
 mod stack;

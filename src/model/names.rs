@@ -233,8 +233,9 @@ impl Walk {
                 self.within([index.name.clone()], |w| w.block(body));
             }
             StatementKind::Type { kind, .. } => {
-                if let GeometricType::Constant(Some(e)) | GeometricType::Group(Some(e)) | GeometricType::Center(Some(e)) =
-                    kind
+                if let GeometricType::Constant(Some(e))
+                | GeometricType::Group(Some(e))
+                | GeometricType::Center(Some(e)) = kind
                 {
                     self.expr(e);
                 }

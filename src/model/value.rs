@@ -263,9 +263,7 @@ impl Value {
     pub fn coordinates(&self, graph: &Graph) -> Coordinates {
         match self {
             Self::Scalar(s) => s.coordinates(graph),
-            Self::Array(a) => {
-                a.items().iter().fold(Coordinates::default(), |all, v| all.union(v.coordinates(graph)))
-            }
+            Self::Array(a) => a.items().iter().fold(Coordinates::default(), |all, v| all.union(v.coordinates(graph))),
             Self::Text(_) | Self::Function(_) => Coordinates::default(),
         }
     }

@@ -18,13 +18,7 @@ use super::count;
 
 /// A name that nothing defines; a note if the prompt may still be told. `places` are where it is read, the first one underlined;
 /// `excused` are names of statements that failed, which may be meant all the same.
-pub fn unknown_name(
-    state: &State,
-    name: &str,
-    places: &[Span],
-    note: bool,
-    excused: &FxHashSet<Name>,
-) -> Diagnostic {
+pub fn unknown_name(state: &State, name: &str, places: &[Span], note: bool, excused: &FxHashSet<Name>) -> Diagnostic {
     let title = if note { format!("`{name}` is not defined yet") } else { format!("`{name}` is not defined") };
     let mut told =
         if note { Diagnostic::note("unknown-name", title) } else { Diagnostic::error("unknown-name", title) };
@@ -130,11 +124,8 @@ fn shortened(way: &[String]) -> String {
 
 /// The wrong number of arguments for a function of the user's.
 pub fn wrong_count(signature: &str, takes: usize, given: usize, span: Span) -> Diagnostic {
-    Diagnostic::error(
-        "wrong-count",
-        format!("`{signature}` takes {}, not {given}", count(takes, "argument")),
-    )
-    .at(span, format!("{} given", count(given, "argument")))
+    Diagnostic::error("wrong-count", format!("`{signature}` takes {}, not {given}", count(takes, "argument")))
+        .at(span, format!("{} given", count(given, "argument")))
 }
 
 /// The wrong number of arguments for a built-in function.
@@ -218,7 +209,10 @@ pub fn loop_never_steps(reads: &[Name], assigns: &[Name], condition: Span, state
     let list = |names: &[Name]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
     let told = Diagnostic::error("loop-never-steps", "the condition of this loop reads nothing that its body assigns")
         .at(condition, if reads.is_empty() { "reads no name".to_owned() } else { format!("reads {}", list(reads)) })
-        .see(statement, if assigns.is_empty() { "assigns nothing".to_owned() } else { format!("assigns {}", list(assigns)) });
+        .see(
+            statement,
+            if assigns.is_empty() { "assigns nothing".to_owned() } else { format!("assigns {}", list(assigns)) },
+        );
     match reads.first() {
         Some(i) => told
             .help(format!("put the step into the body: `BEGIN ... {i} = {i} + 1; END`"))
@@ -229,8 +223,11 @@ pub fn loop_never_steps(reads: &[Name], assigns: &[Name], condition: Span, state
 
 /// A name that a built-in function has.
 pub fn taken_by_builtin(builtin: &Builtin, name: &str, span: Span) -> Diagnostic {
-    Diagnostic::error("builtin-name", format!("`{name}` with parameters is a built-in function: {}", builtin.signature()))
-        .at(span, "choose another name")
+    Diagnostic::error(
+        "builtin-name",
+        format!("`{name}` with parameters is a built-in function: {}", builtin.signature()),
+    )
+    .at(span, "choose another name")
 }
 
 /// `gob_` with parameters.
@@ -243,8 +240,11 @@ pub fn gob_with_parameters(name: &str, span: Span) -> Diagnostic {
 
 /// `r_alpha(p) = ...` and the like.
 pub fn system_with_parameters(name: &str, span: Span) -> Diagnostic {
-    Diagnostic::error("system-with-parameters", format!("`{name}` sets the system of R-functions and has no parameters"))
-        .at(span, "")
+    Diagnostic::error(
+        "system-with-parameters",
+        format!("`{name}` sets the system of R-functions and has no parameters"),
+    )
+    .at(span, "")
 }
 
 /// A name defined twice with a reader between.

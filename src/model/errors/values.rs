@@ -127,7 +127,9 @@ pub fn empty_fold(op: FoldOp, span: Span) -> Diagnostic {
 
 /// ARRAY without an index.
 pub fn array_needs_index(builtin: &Builtin, span: Span) -> Diagnostic {
-    Diagnostic::error("wrong-kind", "ARRAY needs an index").at(span, "").help(format!("write `{}`", builtin.signature()))
+    Diagnostic::error("wrong-kind", "ARRAY needs an index")
+        .at(span, "")
+        .help(format!("write `{}`", builtin.signature()))
 }
 
 /// Branches of an IF on a coordinate that cannot be chosen between.
@@ -208,9 +210,9 @@ pub fn bad_system(name: &str, value: &Value, span: Span) -> Diagnostic {
 
 /// Too many turns.
 pub fn too_many_turns(limit: usize, span: Span) -> Diagnostic {
-    Diagnostic::error("too-many-turns", format!("loops and calls took {limit} turns without an end")).at(span, "").help(
-        "does the body ever make the condition false? The limit holds for all loops of one input together",
-    )
+    Diagnostic::error("too-many-turns", format!("loops and calls took {limit} turns without an end"))
+        .at(span, "")
+        .help("does the body ever make the condition false? The limit holds for all loops of one input together")
 }
 
 /// A graph that has grown too large.

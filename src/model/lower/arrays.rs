@@ -129,11 +129,8 @@ impl Lower<'_> {
         for (x, y) in a.items().iter().zip(b.items()) {
             let x = self.as_scalar(x, span, "an element of a vector")?;
             let y = self.as_scalar(y, span, "an element of a vector")?;
-            let product = if x == y {
-                self.scalars().unary(Unary::Powi(2), x)
-            } else {
-                self.scalars().binary(Binary::Mul, x, y)
-            };
+            let product =
+                if x == y { self.scalars().unary(Unary::Powi(2), x) } else { self.scalars().binary(Binary::Mul, x, y) };
             sum = Some(match sum {
                 None => product,
                 Some(sum) => self.scalars().binary(Binary::Add, sum, product),

@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 use crate::builtins::{self, Builtin, Meaning};
 use crate::source::Span;
-use crate::syntax::tree::{
-    Body, CompareOp, Expr, ExprKind, Ident, Name, ParameterKind, Statement, StatementKind,
-};
+use crate::syntax::tree::{Body, CompareOp, Expr, ExprKind, Ident, Name, ParameterKind, Statement, StatementKind};
 
 use super::super::errors;
 use super::super::names;
@@ -122,7 +120,8 @@ impl Lower<'_> {
         let before = self.locals.len();
         let system = self.active.clone();
         for name in names::assigned(block) {
-            let parameter = self.locals[self.frame..].iter().any(|l| l.name == name) && !self.current_function.is_empty();
+            let parameter =
+                self.locals[self.frame..].iter().any(|l| l.name == name) && !self.current_function.is_empty();
             if !parameter {
                 self.locals.push(Local { name, slot: Slot::Unset });
             }
@@ -158,12 +157,8 @@ impl Lower<'_> {
         let Some(definition) = self.current.clone() else {
             return Err(errors::no_result(name, statement.span).into());
         };
-        let local = LocalFunction {
-            statement: Arc::new(statement.clone()),
-            captured,
-            system: self.active.clone(),
-            depth,
-        };
+        let local =
+            LocalFunction { statement: Arc::new(statement.clone()), captured, system: self.active.clone(), depth };
         Ok(Value::Function(Arc::new(Function { definition, name: name.clone(), local: Some(local) })))
     }
 

@@ -56,16 +56,20 @@ impl Lower<'_> {
         if let Some(leaf) = self.files.leaves.get(&key) {
             return Ok(leaf.clone());
         }
-        let bytes = self.world.host.read(&key.0, self.world.limits.data_bytes).map_err(|e| {
-            e.diagnostic().at(file_at.span, "").see(kind_at.span, "")
-        })?;
+        let bytes = self
+            .world
+            .host
+            .read(&key.0, self.world.limits.data_bytes)
+            .map_err(|e| e.diagnostic().at(file_at.span, "").see(kind_at.span, ""))?;
         let leaf = self.decode(&key.1, &key.0, &bytes, kind_at.span, file_at.span)?;
         self.files.leaves.insert(key, leaf.clone());
         Ok(leaf)
     }
 
     fn decode(&self, _kind: &str, path: &Path, _bytes: &[u8], _at: Span, span: Span) -> Lowered<Arc<dyn Leaf>> {
-        Err(Diagnostic::error("volume", format!("`{}` is of no known volume format", path.display())).at(span, "").into())
+        Err(Diagnostic::error("volume", format!("`{}` is of no known volume format", path.display()))
+            .at(span, "")
+            .into())
     }
 
     pub(super) fn project(&mut self, _arguments: &[Expr], span: Span) -> Lowered<Value> {

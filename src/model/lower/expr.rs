@@ -60,9 +60,7 @@ impl Lower<'_> {
     pub(super) fn number(&mut self, e: &Expr, place: &str) -> Lowered<f64> {
         match self.scalar(e, place)? {
             Scalar::Number(value) => Ok(value),
-            Scalar::Node(id) => {
-                Err(errors::needs_number(place, self.graph.coordinates(id), e.span).into())
-            }
+            Scalar::Node(id) => Err(errors::needs_number(place, self.graph.coordinates(id), e.span).into()),
         }
     }
 
@@ -164,7 +162,12 @@ impl Lower<'_> {
     }
 
     /// A name bound to a value while `f` runs.
-    pub(super) fn let_in<T>(&mut self, name: &Name, value: Value, f: impl FnOnce(&mut Self) -> Lowered<T>) -> Lowered<T> {
+    pub(super) fn let_in<T>(
+        &mut self,
+        name: &Name,
+        value: Value,
+        f: impl FnOnce(&mut Self) -> Lowered<T>,
+    ) -> Lowered<T> {
         self.bound(vec![Local { name: name.clone(), slot: Slot::Is(value) }], f)
     }
 

@@ -145,7 +145,8 @@ impl Lower<'_> {
 
     fn grad(&mut self, e: &Expr, span: Span) -> Lowered<Value> {
         let value = self.scalar(e, "the argument of GRAD")?;
-        let highest = value.coordinates(self.graph).iter().last().ok_or_else(|| errors::no_coordinates("GRAD", e.span))?;
+        let highest =
+            value.coordinates(self.graph).iter().last().ok_or_else(|| errors::no_coordinates("GRAD", e.span))?;
         let mut items = Vec::new();
         for c in 1..=highest.0 {
             items.push(self.slope(&Value::Scalar(value), Coordinate(c), e.span)?);

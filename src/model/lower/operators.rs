@@ -104,13 +104,11 @@ impl Lower<'_> {
                 self.array(items?, at.to(bt))
             }
             (Value::Array(x), Value::Scalar(_)) => {
-                let items: Lowered<Vec<Value>> =
-                    x.items().iter().map(|x| self.arithmetic(op, x, b, at, bt)).collect();
+                let items: Lowered<Vec<Value>> = x.items().iter().map(|x| self.arithmetic(op, x, b, at, bt)).collect();
                 self.array(items?, at.to(bt))
             }
             (Value::Scalar(_), Value::Array(y)) => {
-                let items: Lowered<Vec<Value>> =
-                    y.items().iter().map(|y| self.arithmetic(op, a, y, at, bt)).collect();
+                let items: Lowered<Vec<Value>> = y.items().iter().map(|y| self.arithmetic(op, a, y, at, bt)).collect();
                 self.array(items?, at.to(bt))
             }
             (Value::Scalar(_) | Value::Array(_), other) => Err(errors::no_arithmetic(other, bt).into()),

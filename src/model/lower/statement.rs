@@ -3,9 +3,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::syntax::tree::{
-    Body, Expr, GeometricType, Ident, Name, Range, Statement, StatementKind,
-};
+use crate::syntax::tree::{Body, Expr, GeometricType, Ident, Name, Range, Statement, StatementKind};
 
 use super::super::errors;
 use super::super::names;
@@ -51,7 +49,8 @@ impl Lower<'_> {
             Body::Block(block) => self.nested_body(name, block)?,
         };
         if names::is_system(&name.name) {
-            let system = system_of(&name.name, &value).ok_or_else(|| errors::bad_system(&name.name, &value, name.span))?;
+            let system =
+                system_of(&name.name, &value).ok_or_else(|| errors::bad_system(&name.name, &value, name.span))?;
             self.active = Active::Is(system);
             return Ok(());
         }
