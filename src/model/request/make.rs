@@ -91,13 +91,14 @@ impl Making<'_> {
         self.need(3, "a mesh")?;
         let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
         let shape = self.shape(Demand::Sign)?;
-        for (n, moment) in self.moments()?.into_iter().enumerate() {
+        for (n, moment) in self.moments().into_iter().enumerate() {
             let begun = Instant::now();
-            let extraction = extract(&self.subject.at(&shape, moment), &grid, self.shop.interrupt).map_err(unmade)?;
+            let extraction = extract(&self.subject.at(&shape, moment), &grid, self.shop.limits, self.shop.interrupt)
+                .map_err(unmade)?;
             let report = &extraction.report;
             self.undefined(&report.counters);
             if extraction.mesh.is_empty() {
-                return Err(self.empty(n, Some(report.samples)));
+                return Err(empty(self.subject, Some(moment), Some(report.samples)));
             }
             let topology = check(&extraction.mesh).map_err(|fault| {
                 Diagnostic::error("mesh-fault", format!("the mesh of `{}` has a fault: {fault}", self.subject.name))
@@ -113,14 +114,14 @@ impl Making<'_> {
     }
 
     fn pictures(&mut self) -> Result<(), Diagnostic> {
-        let moments = self.moments()?;
-        let mut artist = self.artist()?;
+        let moments = self.moments();
+        let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
         for (n, moment) in moments.into_iter().enumerate() {
             let begun = Instant::now();
             let picture = artist.picture(moment, self.shop.interrupt)?;
             self.undefined(&picture.counters);
             if picture.hits == 0 {
-                return Err(self.empty(n, None));
+                return Err(empty(self.subject, Some(moment), None));
             }
             self.line(n, &picture_line(&picture.image, &picture.counters), begun);
             self.put(n, &mut |out| export::png::write(&picture.image, &mut { out }))?;
@@ -136,19 +137,19 @@ impl Making<'_> {
             self.written.notes.push(Diagnostic::warning("no-motion", title).help(help));
         }
         let begun = Instant::now();
-        let mut artist = self.artist()?;
+        let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
         let (mut frames, mut counters, mut hits) = (Vec::new(), Counters::default(), 0);
-        let bytes = moments.len() * Image::memory(self.options.picture.size.0, self.options.picture.size.1);
-        self.subject.within_memory(bytes as u64, self.shop.limits)?;
         for &moment in &moments {
             let picture = artist.picture(moment, self.shop.interrupt)?;
+            let bytes = moments.len() * Image::memory(picture.image.width, picture.image.height);
+            self.subject.within_memory(bytes as u64, self.shop.limits)?;
             hits += picture.hits;
             counters.add(picture.counters);
             frames.push(picture.image);
         }
         self.undefined(&counters);
         if hits == 0 {
-            return Err(self.empty(0, None));
+            return Err(empty(self.subject, None, None));
         }
         let what = format!("{} frames, {}", frames.len(), picture_line(&frames[0], &counters));
         self.line(0, &what, begun);
@@ -162,7 +163,7 @@ impl Making<'_> {
         let size: Vec<usize> = grid.cells[..axes].iter().map(|n| n + 1).collect();
         self.subject.within_memory(4 * size.iter().map(|&n| n as u64).product::<u64>(), self.shop.limits)?;
         let shape = self.shape(Demand::Value)?;
-        for (n, moment) in self.moments()?.into_iter().enumerate() {
+        for (n, moment) in self.moments().into_iter().enumerate() {
             let begun = Instant::now();
             let values = fields::on_grid(&self.subject.at(&shape, moment), &grid, self.shop.interrupt)?;
             let what: Vec<String> = size.iter().map(ToString::to_string).collect();
@@ -182,31 +183,24 @@ impl Making<'_> {
         self.subject.shape(self.shop.graph, demand, self.shop.limits)
     }
 
-    fn artist(&mut self) -> Result<pictures::Artist<'_>, Diagnostic> {
-        let moments = if self.is_series() { self.subject.moments() } else { self.still()? };
-        pictures::Artist::new(self.shop, self.subject, self.options, moments)
-    }
-
     fn is_series(&self) -> bool {
         matches!(self.output.target, Target::Series { .. }) || self.output.format.kind() == Kind::Animation
     }
 
-    fn moments(&mut self) -> Result<Vec<f64>, Diagnostic> {
+    /// The moments that this output shows: all frames, or the first.
+    fn moments(&mut self) -> Vec<f64> {
+        let mut moments = self.subject.moments();
         if self.is_series() {
-            return Ok(self.subject.moments());
+            return moments;
         }
-        let still = self.still()?;
-        if let Some(time) = self.subject.time.as_ref().filter(|t| t.values.len() > 1) {
+        if let Some(time) = self.subject.time.as_ref().filter(|_| moments.len() > 1) {
             let c = time.coordinate;
-            let title = format!("this shows {c} = {}, the first of {} frames", still[0], time.values.len());
+            let title = format!("this shows {c} = {}, the first of {} frames", moments[0], moments.len());
             let help = format!("--at {c}=... shows another moment; a name with {{n}} writes all frames");
             self.written.notes.push(Diagnostic::note("first-frame", title).help(help));
         }
-        Ok(still)
-    }
-
-    fn still(&self) -> Result<Vec<f64>, Diagnostic> {
-        Ok(self.subject.moments().into_iter().take(1).collect())
+        moments.truncate(1);
+        moments
     }
 
     fn need(&self, axes: usize, what: &str) -> Result<(), Diagnostic> {
@@ -216,7 +210,8 @@ impl Making<'_> {
         let have: Vec<String> = self.subject.axes.iter().map(|a| a.coordinate.to_string()).collect();
         let name = &self.subject.name;
         let title = format!("{what} needs {axes} axes; `{name}` has {} here: {}", have.len(), have.join(", "));
-        let help = "give the missing coordinate a range (`x3min = -1; x3max = 1;` or --bounds x3=-1:1), or ask for a .png";
+        let help =
+            "give the missing coordinate a range (`x3min = -1; x3max = 1;` or --bounds x3=-1:1), or ask for a .png";
         Err(Diagnostic::error("dimension", title).help(help))
     }
 
@@ -241,30 +236,6 @@ impl Making<'_> {
             _ => String::new(),
         };
         self.written.lines.push(format!("{frame}{what}, {:.0} ms", begun.elapsed().as_secs_f64() * 1e3));
-    }
-
-    /// An object without a point: exit status 1, with what may be the reason.
-    fn empty(&self, n: usize, samples: Option<u64>) -> Diagnostic {
-        let name = &self.subject.name;
-        let moment = match &self.subject.time {
-            Some(time) => format!(" at {} = {}", time.coordinate, time.values[n.min(time.values.len() - 1)]),
-            None => String::new(),
-        };
-        let space: Vec<String> =
-            self.subject.axes.iter().map(|a| format!("{} {} to {}", a.coordinate, a.range[0], a.range[1])).collect();
-        let title = format!("`{name}` is empty{moment}: its function is negative everywhere in the modelling space");
-        let mut diagnostic = Diagnostic::error("empty-object", title)
-            .category(Category::Result)
-            .fact(format!("the modelling space is {}", space.join(", ")))
-            .help("inside is where the function is >= 0: if it is written with inside negative, put `-` before it")
-            .help("if the object lies elsewhere or is smaller than a cell, give --bounds or a larger --resolution");
-        if let Some(samples) = samples {
-            diagnostic = diagnostic.fact(format!("{samples} sample points were decided"));
-        }
-        match self.subject.span {
-            Some(span) => diagnostic.at(span, "this object"),
-            None => diagnostic,
-        }
     }
 
     fn undefined(&mut self, counters: &Counters) {
@@ -292,6 +263,30 @@ impl Making<'_> {
         let title = format!("the modelling space cuts `{}` at {}", self.subject.name, faces.join(", "));
         let help = "the mesh is capped there; widen the space if the object was to be whole";
         self.written.notes.push(Diagnostic::note("cut-by-space", title).help(help));
+    }
+}
+
+/// An object without a point: exit status 1, with what may be the reason.
+pub(super) fn empty(subject: &Subject, moment: Option<f64>, samples: Option<u64>) -> Diagnostic {
+    let name = &subject.name;
+    let when = match (&subject.time, moment) {
+        (Some(time), Some(moment)) => format!(" at {} = {moment}", time.coordinate),
+        _ => String::new(),
+    };
+    let space: Vec<String> =
+        subject.axes.iter().map(|a| format!("{} {} to {}", a.coordinate, a.range[0], a.range[1])).collect();
+    let title = format!("`{name}` is empty{when}: its function is nowhere >= 0 in the modelling space");
+    let mut diagnostic = Diagnostic::error("empty-object", title)
+        .category(Category::Result)
+        .fact(format!("the modelling space is {}", space.join(", ")))
+        .help("inside is where the function is >= 0: if it is written with inside negative, put `-` before it")
+        .help("if the object lies elsewhere or is smaller than a cell, give --bounds or a larger --resolution");
+    if let Some(samples) = samples {
+        diagnostic = diagnostic.fact(format!("{samples} sample points were decided"));
+    }
+    match subject.span {
+        Some(span) => diagnostic.at(span, "this object"),
+        None => diagnostic,
     }
 }
 
