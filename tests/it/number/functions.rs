@@ -251,7 +251,7 @@ fn singles_are_the_doubles_rounded() {
         let mut worst = (0.0, 0.0);
         for _ in 0..40_000 {
             let (wide, narrow) = (random.any() as f32, random.within(-20.0, 20.0) as f32);
-            let x = if random.bits() % 4 == 0 { wide } else { narrow };
+            let x = if random.once_in(4) { wide } else { narrow };
             let (single, double) = (op.single(x), op.real(f64::from(x)));
             if same(f64::from(single), f64::from(double as f32)) {
                 continue;
