@@ -245,6 +245,29 @@ fn common_angles_take_the_common_way() {
 }
 
 #[test]
+fn blocks_give_the_same_bits_as_single_numbers() {
+    let mut random = Random(5);
+    for &op in UNARY {
+        for length in [0, 1, 15, 16, 100] {
+            let a: Vec<f64> = (0..length).map(|_| if random.once_in(9) { f64::NAN } else { random.any() }).collect();
+            let narrow: Vec<f32> = a.iter().map(|&a| a as f32).collect();
+            let (mut out, mut narrow_out) = (vec![7.0; length + 1], vec![7.0; length + 1]);
+            op.map(&a, &mut out);
+            op.map(&narrow, &mut narrow_out);
+            for i in 0..length {
+                assert!(same(out[i], op.real(a[i])), "{op:?} of {:?} in a block is {:?}", a[i], out[i]);
+                assert!(
+                    same(narrow_out[i].into(), op.single(narrow[i]).into()),
+                    "{op:?} of {:?} in a block",
+                    narrow[i]
+                );
+            }
+            assert_eq!((out[length], narrow_out[length]), (7.0, 7.0));
+        }
+    }
+}
+
+#[test]
 fn singles_are_the_doubles_rounded() {
     let mut random = Random(4);
     for &op in UNARY.iter().filter(|op| !matches!(op, Unary::Powi(_))) {
