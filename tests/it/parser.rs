@@ -69,3 +69,21 @@ fn formatted(text: &str) -> String {
     let id = sources.add("case", text);
     print::format(&sources, id, &Limits::default()).unwrap_or_else(|d| panic!("{d:?}\n{text}"))
 }
+
+#[test]
+fn explore_lines() {
+    let Ok(path) = std::env::var("EXPLORE_LINES") else { return };
+    for line in std::fs::read_to_string(path).unwrap().lines() {
+        let mut sources = SourceMap::default();
+        let id = sources.add("case", line);
+        let p = parse(&sources, id, &Limits::default(), Mode::Prompt);
+        eprintln!(
+            "=== {line}      -> {} {}",
+            dump::statements(&p.statements),
+            if p.incomplete { "INCOMPLETE" } else { "" }
+        );
+        for d in &p.diagnostics {
+            eprint!("{}", yont::diagnostic::render::human(d, &sources, yont::diagnostic::render::Colour::Plain));
+        }
+    }
+}
