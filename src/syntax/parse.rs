@@ -124,6 +124,8 @@ impl<'t> Driver<'t> {
     }
 
     fn finish(mut self, limits: &Limits) -> Parsed {
+        // The faults of a block's brackets are found before the other errors in it.
+        self.parsed.diagnostics.sort_by_key(|d| d.labels.iter().find(|l| l.primary).map(|l| l.span.start));
         let errors = self.parsed.diagnostics.len();
         if errors > limits.errors {
             self.parsed.diagnostics.truncate(limits.errors);

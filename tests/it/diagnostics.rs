@@ -44,7 +44,16 @@ fn the_figure_as_printed() {
     let parsed = parse(&sources, id, &Limits::default(), Mode::Script);
     let lines: Vec<_> =
         parsed.diagnostics.iter().map(|d| short(d, &sources) + "\n  help: " + &d.help.join("; ")).collect();
-    expect![[r#""#]].assert_eq(&lines.join("\n"));
+    expect![[r#"
+        as-printed.txt:5:12: error[missing-semicolon]: a `;` is missing at the end of this statement
+          help: write `;` before `pob_block_3D`
+        as-printed.txt:14:41: error[stray-bracket]: this `)` closes nothing
+          help: remove it, or add the `(` that it should close, maybe right behind `gob_cyl1 =`
+        as-printed.txt:26:13: error[unclosed-bracket]: this `(` is never closed
+          help: add the `)` where it belongs, at the latest before the end of the statement
+        as-printed.txt:34:33: error[unclosed-bracket]: this `(` is never closed
+          help: add the `)` where it belongs, at the latest before the end of the statement"#]]
+    .assert_eq(&lines.join("\n"));
 }
 
 fn sample() -> (SourceMap, Diagnostic) {
@@ -79,7 +88,8 @@ fn a_message_for_people() {
           |
           = help: did you mean `r3`?
           = note: names tell upper from lower case
-    "#]].assert_eq(&human(&diagnostic, &sources, Colour::Plain));
+    "#]]
+    .assert_eq(&human(&diagnostic, &sources, Colour::Plain));
     assert!(human(&diagnostic, &sources, Colour::Ansi).contains("\u{1b}["), "colours");
 }
 
@@ -90,7 +100,10 @@ fn a_message_for_editors_and_programs() {
     expect![[r#"{"code":"unknown-name","severity":"error","category":"program","title":"`r2` is not defined","file":"a.geo","line":2,"column":9,"end_line":2,"end_column":11,"start":18,"end":20,"labels":[{"text":"unknown","primary":true,"file":"a.geo","line":2,"column":9,"end_line":2,"end_column":11,"start":18,"end":20},{"text":"","primary":false,"file":"a.geo","line":1,"column":1,"end_line":1,"end_column":3,"start":0,"end":2},{"text":"nothing reads this","primary":false,"file":"b.geo","line":1,"column":1,"end_line":1,"end_column":3,"start":0,"end":2}],"help":["did you mean `r3`?"],"notes":["names tell upper from lower case"]}"#]].assert_eq(&json(&diagnostic, &sources));
     let nowhere = Diagnostic::warning("w", "no place").category(Category::File);
     expect!["warning[w]: no place"].assert_eq(&short(&nowhere, &sources));
-    expect![[r#"{"code":"w","severity":"warning","category":"file","title":"no place","labels":[],"help":[],"notes":[]}"#]].assert_eq(&json(&nowhere, &sources));
+    expect![[
+        r#"{"code":"w","severity":"warning","category":"file","title":"no place","labels":[],"help":[],"notes":[]}"#
+    ]]
+    .assert_eq(&json(&nowhere, &sources));
 }
 
 /// Spans that do not fit the text must not panic: a text may have been cut, a span may be made up.
