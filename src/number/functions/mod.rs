@@ -11,6 +11,7 @@ mod double;
 mod exponential;
 mod hyperbolic;
 mod inverse;
+mod single;
 mod trigonometric;
 
 pub use exponential::{exp, log, log10, pow};
@@ -25,6 +26,45 @@ pub use trigonometric::{NEAR, cos, cos_near, sin, sin_near, tan, tan_near};
 pub fn acosh(x: f64) -> f64 {
     // The library gives a number there.
     if x < 1.0 { f64::NAN } else { libm::acosh(x) }
+}
+
+/// An elementary function of a double; angles up to [`NEAR`].
+#[inline(always)]
+pub(super) fn near(op: Unary, x: f64) -> f64 {
+    match op {
+        Unary::Cbrt => cbrt(x),
+        Unary::Exp => exp(x),
+        Unary::Log => log(x),
+        Unary::Log10 => log10(x),
+        Unary::Sin => sin_near(x),
+        Unary::Cos => cos_near(x),
+        Unary::Tan => tan_near(x),
+        Unary::Asin => asin(x),
+        Unary::Acos => acos(x),
+        Unary::Atan => atan(x),
+        Unary::Sinh => sinh(x),
+        Unary::Cosh => cosh(x),
+        Unary::Tanh => tanh(x),
+        Unary::Asinh => asinh(x),
+        Unary::Acosh => acosh(x),
+        Unary::Atanh => atanh(x),
+        _ => f64::NAN,
+    }
+}
+
+/// An elementary function of a single; angles up to [`NEAR`]. Those without a kernel of their own are rounded from doubles.
+#[inline(always)]
+#[allow(clippy::cast_possible_truncation)]
+pub(super) fn near_single(op: Unary, x: f32) -> f32 {
+    match op {
+        Unary::Exp => single::exp(x),
+        Unary::Log => single::log(x),
+        Unary::Log10 => single::log10(x),
+        Unary::Sin => single::sin(x),
+        Unary::Cos => single::cos(x),
+        Unary::Tan => single::tan(x),
+        _ => near(op, f64::from(x)) as f32,
+    }
 }
 
 /// The error bound of a function of one number, in units in the last place of the result.
