@@ -11,6 +11,7 @@ pub mod palette;
 pub mod plot;
 pub mod raycast;
 pub mod rays;
+mod search;
 pub mod shade;
 
 pub use camera::{Camera, Projection, View};
