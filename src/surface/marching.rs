@@ -60,11 +60,7 @@ impl fmt::Display for SurfaceError {
             Self::Dimension(shape, grid) => {
                 write!(f, "the object has {shape} free coordinates where {grid} are needed")
             }
-<<<<<<< HEAD
-            Self::TooManyVertices => write!(f, "the mesh has more than four thousand million vertices"),
-=======
             Self::Memory(limit) => write!(f, "the mesh would take more than {} MiB of memory", limit >> 20),
->>>>>>> surface
             Self::Contradiction([x, y, z]) => write!(f, "the signs near ({x}, {y}, {z}) contradict each other"),
         }
     }
