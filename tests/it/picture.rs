@@ -12,7 +12,7 @@ use yont::picture::rays::{Hit, Scene, cast};
 use yont::picture::{Camera, Image, Palette, Projection, View};
 use yont::vm::{Demand, Program, Shape};
 
-use super::mesh::{Ex, KNOWN, ball, shape_of};
+use crate::solids::{Ex, KNOWN, ball, shape_of};
 
 fn cube(half: f64) -> Space {
     Space { lo: [-half; 3], hi: [half; 3] }
@@ -363,7 +363,7 @@ fn volumes_are_seen_with_faces_of_nearest_samples_flat() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Thin plates and grazing rays: whatever a dense march along the ray finds is found.
     #[test]
