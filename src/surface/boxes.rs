@@ -77,9 +77,6 @@ pub trait Visitor: Send {
 
     /// An undecided leaf, with the program that is right inside its bounds (as good as the shape's own there, perhaps shorter).
     fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler);
-
-    /// The task is done: a visitor may turn what it gathered into something smaller.
-    fn finish(&mut self, _sampler: &mut Sampler) {}
 }
 
 /// What a walk brings back.
@@ -116,7 +113,6 @@ where
                     State::Decided(inside) => walker.decide(&mut own, &block, inside),
                     State::Open(program) => walker.descend(0, &block, &program, &mut own)?,
                 }
-                own.finish(&mut walker.sampler);
                 Ok((own, walker.take_counters()))
             },
         )
@@ -185,7 +181,14 @@ struct Walker<'a, L> {
 
 impl<'a, L: Lattice> Walker<'a, L> {
     fn new(lattice: &'a L, shape: &'a Shape, interrupt: &'a Interrupt) -> Self {
-        Self { lattice, shape, interrupt, levels: Vec::new(), sampler: Sampler::new(shape), boxes: 0 }
+        Self {
+            lattice,
+            shape,
+            interrupt,
+            levels: Vec::new(),
+            sampler: Sampler::new(shape).heeding(interrupt),
+            boxes: 0,
+        }
     }
 
     fn take_counters(&mut self) -> Counters {
@@ -212,6 +215,7 @@ impl<'a, L: Lattice> Walker<'a, L> {
         if is_leaf || !visitor.wants(block) {
             if is_leaf && visitor.wants(block) {
                 visitor.leaf(block, program, &mut self.sampler);
+                self.interrupt.tick()?;
             }
             self.interrupt.advance(block.points());
             return Ok(());
