@@ -10,6 +10,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::diagnostic::{Category, Diagnostic};
 
@@ -387,6 +388,18 @@ impl Host for Memory {
 pub fn state_folder() -> Option<PathBuf> {
     use etcetera::BaseStrategy;
     etcetera::base_strategy::Xdg::new().ok()?.state_dir().map(|folder| folder.join("yont"))
+}
+
+/// The value of a variable of the environment; an empty one counts as none.
+#[must_use]
+pub fn variable(name: &str) -> Option<String> {
+    std::env::var_os(name)?.into_string().ok().filter(|value| !value.is_empty())
+}
+
+/// Nanoseconds since 1970, to tell files apart by their names. No result depends on it.
+#[must_use]
+pub fn nanoseconds() -> u128 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_nanos())
 }
 
 /// A file that only grows, one line at a time, each on the disk before the call returns. While it is open, no other
