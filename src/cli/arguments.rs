@@ -146,19 +146,6 @@ pub struct Fineness {
     /// The length of a cell, instead of --resolution
     #[arg(long, value_name = "LENGTH", conflicts_with = "resolution")]
     pub cell: Option<f64>,
-    /// The arithmetic; `single` is for previews
-    #[arg(long, value_name = "KIND")]
-    pub precision: Option<Precision>,
-}
-
-/// The arithmetic of sampling.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Precision {
-    /// 53 bits
-    #[default]
-    Double,
-    /// 24 bits
-    Single,
 }
 
 /// How pictures look.
@@ -168,7 +155,7 @@ pub struct Look {
     /// Pixels of a picture (default 640x480)
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
-    /// The point that the camera looks from, instead of --view
+    /// The direction from the object to the eye, instead of --view
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, conflicts_with = "view", allow_hyphen_values = true)]
     pub camera: Option<[f64; 3]>,
     /// The side that the camera looks from
@@ -242,6 +229,14 @@ pub struct Run {
     /// Exit with 1 when the value of the last expression is 0
     #[arg(long)]
     pub exit_status: bool,
+    /// How results are made
+    #[command(flatten)]
+    pub making: Making,
+}
+
+/// How results are made: everything that decides what is in a file.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct Making {
     /// Which object
     #[command(flatten)]
     pub subject: Subject,
@@ -305,9 +300,6 @@ pub struct Sample {
     /// Write the gradient after the value
     #[arg(long)]
     pub gradient: bool,
-    /// The arithmetic
-    #[arg(long, value_name = "KIND")]
-    pub precision: Option<Precision>,
 }
 
 /// Checking programs.
