@@ -5,24 +5,23 @@ use std::path::Path;
 use clap::CommandFactory;
 
 use crate::builtins;
-use crate::host::{self, Disk, FileError, Host};
+use crate::diagnostic::near;
+use crate::host::{Disk, Host};
 use crate::limits::Limits;
 use crate::source::SourceMap;
 
-use super::arguments::{Check, Cli, Doc, Fmt};
+use super::arguments::{Check, Cli, Doc, Fmt, Program};
 use super::console::Console;
 use super::engine::Signals;
-use super::session::{load, read_text};
+use super::session::{self, read_text};
 use super::status::Status;
 
 /// `yont check FILE...`: each file is read on its own, and everything wrong with it is told.
 pub fn check(console: &Console, signals: &Signals, options: &Check) -> Result<Status, Status> {
     let mut status = Status::Done;
     for file in &options.files {
-        status = status.or(match load(console, signals, file) {
-            Ok(_) => Status::Done,
-            Err(failed) => failed,
-        });
+        let program = Program { file: Some(file.clone()), ..Program::default() };
+        status = status.or(session::open(console, signals, &program).err().unwrap_or_default());
     }
     Ok(status)
 }
@@ -58,4 +57,71 @@ fn fmt_one(console: &Console, file: &Path, check: bool) -> Result<Status, Status
         }
     }
     Ok(Status::Done)
+}
+
+/// `yont doc [NAME]`.
+pub fn doc(console: &Console, signals: &Signals, options: &Doc) -> Result<Status, Status> {
+    let Some(name) = &options.name else {
+        console.print(&overview())?;
+        return Ok(Status::Done);
+    };
+    if let Some(file) = &options.file {
+        let program = Program { file: Some(file.clone()), ..Program::default() };
+        let (session, _) = session::open(console, signals, &program)?;
+        if let Some(words) = session.doc(name) {
+            console.print(&words)?;
+            return Ok(Status::Done);
+        }
+    }
+    match builtins::find(name) {
+        Some(builtin) => console.print(&explain(builtin)).map(|()| Status::Done),
+        None => Ok(console.usage(&unknown(name))),
+    }
+}
+
+fn unknown(name: &str) -> String {
+    let upper = name.to_uppercase();
+    match near::suggest(&upper, builtins::TABLE.iter().map(|builtin| builtin.name)) {
+        Some(other) => format!("there is no built-in function `{name}`; did you mean `{other}`?"),
+        None => format!("there is no built-in function `{name}`; `yont doc` lists them"),
+    }
+}
+
+/// All built-in functions, one a line.
+#[must_use]
+pub fn overview() -> String {
+    let width = builtins::TABLE.iter().map(|b| signature(b).chars().count()).max().unwrap_or(0);
+    let line = |b: &builtins::Builtin| {
+        let first = b.doc.split(['.', ';']).next().unwrap_or(b.doc);
+        format!("{:width$}  {first}", signature(b))
+    };
+    builtins::TABLE.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// What there is to say of a built-in function.
+#[must_use]
+pub fn explain(builtin: &builtins::Builtin) -> String {
+    let (source, value) = builtin.example;
+    format!("{}\n    {}\n    {source} is {value}", signature(builtin), builtin.doc)
+}
+
+/// `ATAN2(y, x)`.
+#[must_use]
+pub fn signature(builtin: &builtins::Builtin) -> String {
+    format!("{}({})", builtin.name, builtin.parameters.join(", "))
+}
+
+/// `yont completions SHELL`.
+pub fn completions(console: &Console, shell: clap_complete::Shell) -> Result<Status, Status> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "yont", &mut script);
+    console.write(|out| out.write_all(&script)).map(|()| Status::Done)
+}
+
+/// `yont man`.
+pub fn man(console: &Console) -> Result<Status, Status> {
+    let mut page = Vec::new();
+    // Writing to memory does not fail.
+    let _ = clap_mangen::Man::new(Cli::command()).render(&mut page);
+    console.write(|out| out.write_all(&page)).map(|()| Status::Done)
 }
