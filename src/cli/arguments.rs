@@ -160,7 +160,7 @@ pub struct Look {
     pub camera: Option<[f64; 3]>,
     /// The side that the camera looks from
     #[arg(long, value_name = "SIDE")]
-    pub view: Option<View>,
+    pub view: Option<Side>,
     /// The colours of a plot; `mono` is black inside and white outside
     #[arg(long, value_name = "NAME")]
     pub palette: Option<Palette>,
@@ -171,7 +171,7 @@ pub struct Look {
 
 /// The sides of a view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum View {
+pub enum Side {
     /// From the right, the front and above
     #[default]
     Iso,

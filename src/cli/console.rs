@@ -2,8 +2,9 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
+use std::time::Duration;
 
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Category, Diagnostic, Severity};
 use crate::host::{Doing, FileError, Reason, reason, variable};
 use crate::interrupt::Interrupt;
 use crate::source::SourceMap;
@@ -87,6 +88,18 @@ impl Console {
         }
     }
 
+    /// Tells how long `what` took, with `--timings`.
+    pub fn timing(&self, what: &str, time: Duration) {
+        if self.timings {
+            self.say(&format!("{what}: {:.3} s", time.as_secs_f64()));
+        }
+    }
+
+    /// Refuses what was asked for at the prompt.
+    pub fn refuse(&self, words: &str) -> Status {
+        self.report(&SourceMap::default(), &[Diagnostic::error("command", words).category(Category::Usage)])
+    }
+
     /// Writes a line to standard error with `-v`.
     pub fn detail(&self, text: &str) {
         if self.verbose {
@@ -101,7 +114,7 @@ impl Console {
 
     /// Tells what is wrong with the command line.
     pub fn usage(&self, words: &str) -> Status {
-        let diagnostic = Diagnostic::error("usage", words).category(crate::diagnostic::Category::Usage);
+        let diagnostic = Diagnostic::error("usage", words).category(Category::Usage);
         self.report(&SourceMap::default(), &[diagnostic.help("`yont --help` shows all options")])
     }
 

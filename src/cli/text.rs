@@ -81,34 +81,34 @@ pub fn doc(console: &Console, signals: &Signals, options: &Doc) -> Result<Status
 
 fn unknown(name: &str) -> String {
     let upper = name.to_uppercase();
-    match near::suggest(&upper, builtins::TABLE.iter().map(|builtin| builtin.name)) {
+    match near::suggest(&upper, builtins::all().flat_map(builtins::Builtin::names)) {
         Some(other) => format!("there is no built-in function `{name}`; did you mean `{other}`?"),
         None => format!("there is no built-in function `{name}`; `yont doc` lists them"),
     }
 }
 
-/// All built-in functions, one a line.
-#[must_use]
-pub fn overview() -> String {
-    let width = builtins::TABLE.iter().map(|b| signature(b).chars().count()).max().unwrap_or(0);
-    let line = |b: &builtins::Builtin| {
-        let first = b.doc.split(['.', ';']).next().unwrap_or(b.doc);
-        format!("{:width$}  {first}", signature(b))
-    };
-    builtins::TABLE.iter().map(line).collect::<Vec<_>>().join("\n")
+/// All built-in functions by subject, one a line.
+fn overview() -> String {
+    let width = builtins::all().map(|builtin| builtin.signature().chars().count()).max().unwrap_or(0);
+    let mut lines: Vec<String> = Vec::new();
+    let mut subject = None;
+    for builtin in builtins::all() {
+        if subject != Some(builtin.subject) {
+            let gap = if subject.is_some() { "\n" } else { "" };
+            lines.push(format!("{gap}{}:", builtin.subject));
+            subject = Some(builtin.subject);
+        }
+        let first = builtin.doc.split(['.', ';']).next().unwrap_or(builtin.doc);
+        lines.push(format!("  {:width$}  {first}", builtin.signature()));
+    }
+    lines.join("\n")
 }
 
 /// What there is to say of a built-in function.
 #[must_use]
 pub fn explain(builtin: &builtins::Builtin) -> String {
     let (source, value) = builtin.example;
-    format!("{}\n    {}\n    {source} is {value}", signature(builtin), builtin.doc)
-}
-
-/// `ATAN2(y, x)`.
-#[must_use]
-pub fn signature(builtin: &builtins::Builtin) -> String {
-    format!("{}({})", builtin.name, builtin.parameters.join(", "))
+    format!("{}\n    {}\n    {source} is {value}", builtin.signature(), builtin.doc)
 }
 
 /// `yont completions SHELL`.

@@ -166,7 +166,7 @@ pub fn definition(repl: &mut Repl, name: &str) -> Flow {
 
 fn unknown_name(repl: &mut Repl, name: &str) -> Flow {
     let names = repl.names();
-    let candidates = names.iter().map(String::as_str).chain(builtins::TABLE.iter().map(|builtin| builtin.name));
+    let candidates = names.iter().map(String::as_str).chain(builtins::all().flat_map(builtins::Builtin::names));
     let near = near::suggest(name, candidates).map(|other| format!("; did you mean `{other}`?")).unwrap_or_default();
     repl.refuse(&format!("`{name}` is not defined{near}"))
 }

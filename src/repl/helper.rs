@@ -13,10 +13,11 @@ use crate::builtins;
 use crate::host::{Disk, Host};
 use crate::limits::Limits;
 use crate::source::SourceMap;
+use crate::syntax::scan::RESERVED;
 use crate::syntax::{self, Mode};
 
 use super::commands::{self, Argument};
-use super::scan::{KEYWORDS, Look, partner, pieces};
+use super::look::{Look, partner, pieces};
 
 /// Inputs beyond this many bytes are not coloured while they are typed, nor searched for their end: a pasted file
 /// would be scanned anew with each key.
@@ -87,7 +88,7 @@ fn colour(look: Look) -> &'static str {
         Look::Builtin => "34",
         Look::Coordinate => "33",
         Look::Object => "1",
-        Look::Name | Look::Other => "",
+        Look::Plain => "",
     }
 }
 
@@ -136,7 +137,7 @@ impl Assistant {
             return (start, Vec::new());
         }
         let mut found = starting(self.names.iter().map(String::as_str), word);
-        let words = KEYWORDS.iter().copied().chain(builtins::TABLE.iter().map(|builtin| builtin.name));
+        let words = RESERVED.into_iter().chain(["PI"]).chain(builtins::all().flat_map(builtins::Builtin::names));
         found.extend(starting(words, &word.to_ascii_uppercase()));
         found.dedup();
         (start, found)

@@ -3,7 +3,7 @@
 pub mod commands;
 pub mod helper;
 pub mod history;
-pub mod scan;
+pub mod look;
 
 use std::io::{BufRead, IsTerminal, Read};
 use std::path::Path;

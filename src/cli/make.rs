@@ -1,0 +1,31 @@
+//! From options to requests of the model, and what is told of the files that were made.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use crate::field::Coordinate;
+use crate::model::Session;
+use crate::model::request::{self, Cells, PictureOptions, Timing, View};
+
+use super::arguments::{Making, Palette, Side};
+use super::console::Console;
+use super::engine::Signals;
+use super::output::{Output, Target};
+use super::status::Status;
+
+/// Which object, which part of its space, how finely.
+#[must_use]
+pub fn view(making: &Making) -> View {
+    let default = View::default();
+    let cells = match (making.fineness.cell, making.fineness.resolution) {
+        (Some(length), _) => Cells::Length(length),
+        (None, Some(count)) => Cells::Along(count),
+        (None, None) => default.cells,
+    };
+    View {
+        object: making.subject.object.clone(),
+        at: making.subject.at.iter().map(|section| (section.coordinate, section.value)).collect(),
+        bounds: making.subject.bounds.iter().map(|extent| (extent.coordinate, extent.lo, extent.hi)).collect(),
+        cells,
+    }
+}
