@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::time::Duration;
 
+use crate::diagnostic::render::{self, Colour};
 use crate::diagnostic::{Category, Diagnostic, Severity};
 use crate::host::{Doing, FileError, Reason, reason, variable};
 use crate::interrupt::Interrupt;
@@ -129,9 +130,9 @@ impl Console {
 
     fn rendered(&self, sources: &SourceMap, diagnostic: &Diagnostic) -> String {
         match self.rendering {
-            Rendering::Human => crate::diagnostic::render::human(sources, diagnostic, self.colour),
-            Rendering::Short => crate::diagnostic::render::short(sources, diagnostic),
-            Rendering::Json => crate::diagnostic::render::json(sources, diagnostic),
+            Rendering::Human => render::human(diagnostic, sources, if self.colour { Colour::Ansi } else { Colour::Plain }),
+            Rendering::Short => render::short(diagnostic, sources),
+            Rendering::Json => render::json(diagnostic, sources),
         }
     }
 

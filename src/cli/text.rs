@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::CommandFactory;
 
 use crate::builtins;
-use crate::diagnostic::near;
+use crate::diagnostic::near::{Candidate, suggest};
 use crate::host::{Disk, Host};
 use crate::limits::Limits;
 use crate::source::SourceMap;
@@ -81,10 +81,16 @@ pub fn doc(console: &Console, signals: &Signals, options: &Doc) -> Result<Status
 
 fn unknown(name: &str) -> String {
     let upper = name.to_uppercase();
-    match near::suggest(&upper, builtins::all().flat_map(builtins::Builtin::names)) {
+    match near(&upper, builtins::all().flat_map(builtins::Builtin::names)) {
         Some(other) => format!("there is no built-in function `{name}`; did you mean `{other}`?"),
         None => format!("there is no built-in function `{name}`; `yont doc` lists them"),
     }
+}
+
+/// The name that is nearest to one which means nothing.
+#[must_use]
+pub fn near<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    suggest(name, names.map(|name| Candidate { name, preferred: false })).first().copied()
 }
 
 /// All built-in functions by subject, one a line.

@@ -7,7 +7,6 @@ use clap::Parser;
 use crate::cli::arguments::Making;
 use crate::cli::output::{Kind, Output};
 use crate::cli::{make, session, status::Status, text};
-use crate::diagnostic::near;
 use crate::host::{Disk, Host};
 use crate::{builtins, cli};
 
@@ -110,7 +109,7 @@ pub fn run(repl: &mut Repl, line: &str) -> Flow {
 }
 
 fn unknown(name: &str) -> String {
-    match near::suggest(name, TABLE.iter().map(|command| command.name)) {
+    match text::near(name, TABLE.iter().map(|command| command.name)) {
         Some(other) => format!("there is no command `:{name}`; did you mean `:{other}`?"),
         None => format!("there is no command `:{name}`; `:help` lists them"),
     }
@@ -167,7 +166,7 @@ pub fn definition(repl: &mut Repl, name: &str) -> Flow {
 fn unknown_name(repl: &mut Repl, name: &str) -> Flow {
     let names = repl.names();
     let candidates = names.iter().map(String::as_str).chain(builtins::all().flat_map(builtins::Builtin::names));
-    let near = near::suggest(name, candidates).map(|other| format!("; did you mean `{other}`?")).unwrap_or_default();
+    let near = text::near(name, candidates).map(|other| format!("; did you mean `{other}`?")).unwrap_or_default();
     repl.refuse(&format!("`{name}` is not defined{near}"))
 }
 
