@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    yont::cli::main(std::env::args_os()).into()
+    yont::cli::main(std::env::args_os(), yont::repl::start).into()
 }

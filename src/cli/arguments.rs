@@ -27,7 +27,7 @@ const AFTER_HELP: &str = "\
 Without a program, `yont` is a prompt. The extension of OUT decides what is made:
   .stl .obj .ply   the boundary as a mesh          .png   a picture
   .nrrd            the sampled function            .gif   an animation over T
-  frame-{n}.stl    (or any of these) one file a frame, n from 0, at least three digits
+  a name with n in braces: one file a frame, numbered from 0 with at least three digits
   -                standard output, with --format
 
 Exit status: 0 done; 1 ran and failed (an empty object); 2 usage; 3 an error in the program;
@@ -61,6 +61,7 @@ pub enum Command {
 
 /// How results and messages are told; these stand before or after a command.
 #[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "How it talks and works")]
 pub struct Common {
     /// Threads; by default one for each core
     #[arg(short = 'j', long = "threads", value_name = "N", global = true, value_parser = positive)]

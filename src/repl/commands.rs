@@ -165,8 +165,8 @@ pub fn definition(repl: &mut Repl, name: &str) -> Flow {
 
 fn unknown_name(repl: &mut Repl, name: &str) -> Flow {
     let names = repl.names();
-    let candidates = names.iter().map(String::as_str).chain(builtins::all().flat_map(builtins::Builtin::names));
-    let near = text::near(name, candidates).map(|other| format!("; did you mean `{other}`?")).unwrap_or_default();
+    let candidates = builtins::all().flat_map(builtins::Builtin::names).map(|known: &str| known);
+    let near = text::near(name, names.iter().map(String::as_str).chain(candidates)).map(|other| format!("; did you mean `{other}`?")).unwrap_or_default();
     repl.refuse(&format!("`{name}` is not defined{near}"))
 }
 

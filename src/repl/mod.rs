@@ -96,7 +96,8 @@ impl Repl {
         let colour = self.console.colour();
         let mode = if colour { ColorMode::Enabled } else { ColorMode::Disabled };
         let config = Config::builder().max_history_size(HISTORY)?.color_mode(mode).build();
-        let mut editor = Editor::with_history(config, MemHistory::with_config(&config))?;
+        let history = MemHistory::with_config(&config);
+        let mut editor = Editor::with_history(config, history)?;
         editor.set_helper(Some(Assistant { names: self.names(), colour }));
         for input in self.memory.history() {
             // The editor's own history only refuses what is already there.
