@@ -252,6 +252,41 @@ pub struct Making {
     pub motion: Motion,
 }
 
+/// The options of a run, without a run, for reading them at the prompt.
+#[derive(Debug, Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+struct Options {
+    #[command(flatten)]
+    making: Making,
+}
+
+impl Making {
+    /// These with the options in `words` laid over them: `--resolution 64 --view top`. Of two that exclude each other, the
+    /// one said last stays.
+    ///
+    /// # Errors
+    /// Words for the user on the first option that is none or has no such value.
+    pub fn with(&self, words: &str) -> Result<Self, String> {
+        let mut options = Options { making: self.clone() };
+        let says = |name: &str| words.split_whitespace().any(|word| word.split('=').next() == Some(name));
+        if says("--resolution") {
+            options.making.fineness.cell = None;
+        }
+        if says("--cell") {
+            options.making.fineness.resolution = None;
+        }
+        if says("--view") {
+            options.making.look.camera = None;
+        }
+        if says("--camera") {
+            options.making.look.view = None;
+        }
+        let read = options.try_update_from(words.split_whitespace());
+        read.map_err(|error| error.to_string().trim_start_matches("error: ").lines().next().unwrap_or("").to_owned())?;
+        Ok(options.making)
+    }
+}
+
 /// Telling about objects.
 #[derive(Args, Clone, Debug)]
 pub struct Info {

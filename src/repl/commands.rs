@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use clap::Parser;
-
 use crate::cli::arguments::Making;
 use crate::cli::output::{Kind, Output};
 use crate::cli::{make, session, status::Status, text};
@@ -65,7 +63,13 @@ pub static TABLE: &[Command] = &[
     command("mesh", "FILE [OPTION...]", "write a mesh: .stl .obj .ply", Argument::File, mesh),
     command("render", "FILE [OPTION...]", "write a picture or an animation: .png .gif", Argument::File, render),
     command("measure", "[NAME]", "volume, area, centroid and more of an object", Argument::Name, measure),
-    command("set", "[OPTION VALUE]", "keep an option for :mesh, :render and :measure, as in :set resolution 64", Argument::None, set),
+    command(
+        "set",
+        "[OPTION VALUE]",
+        "keep an option for :mesh, :render and :measure, as in :set resolution 64",
+        Argument::None,
+        set,
+    ),
     command("at", "[xN=VALUE]...", "look at a section; without a value, at the whole", Argument::None, at),
     command("recover", "", "run the inputs of a session that was killed", Argument::None, recover),
     command("quit", "", "leave", Argument::None, |_, _| Flow::Leave),
@@ -100,7 +104,9 @@ pub fn run(repl: &mut Repl, line: &str) -> Flow {
         Some(command) if command.arguments.is_empty() && !argument.is_empty() => {
             repl.refuse(&format!("`:{}` takes no argument", command.name))
         }
-        Some(command) if !command.arguments.is_empty() && !command.arguments.starts_with('[') && argument.is_empty() => {
+        Some(command)
+            if !command.arguments.is_empty() && !command.arguments.starts_with('[') && argument.is_empty() =>
+        {
             repl.refuse(&format!("`:{} {}` needs its argument", command.name, command.arguments))
         }
         Some(command) => (command.action)(repl, argument),
@@ -166,7 +172,9 @@ pub fn definition(repl: &mut Repl, name: &str) -> Flow {
 fn unknown_name(repl: &mut Repl, name: &str) -> Flow {
     let names = repl.names();
     let candidates = builtins::all().flat_map(builtins::Builtin::names).map(|known: &str| known);
-    let near = text::near(name, names.iter().map(String::as_str).chain(candidates)).map(|other| format!("; did you mean `{other}`?")).unwrap_or_default();
+    let near = text::near(name, names.iter().map(String::as_str).chain(candidates))
+        .map(|other| format!("; did you mean `{other}`?"))
+        .unwrap_or_default();
     repl.refuse(&format!("`{name}` is not defined{near}"))
 }
 
@@ -230,8 +238,9 @@ fn render(repl: &mut Repl, argument: &str) -> Flow {
 }
 
 fn make_file(repl: &mut Repl, argument: &str, wanted: fn(Kind) -> bool, otherwise: &str) -> Flow {
-    let (file, options) = argument.split_once(" --").map_or((argument, ""), |(file, _)| (file, &argument[file.len()..]));
-    let making = match options_on(&repl.making, options) {
+    let (file, options) =
+        argument.split_once(" --").map_or((argument, ""), |(file, _)| (file, &argument[file.len()..]));
+    let making = match repl.making.with(options) {
         Ok(making) => making,
         Err(words) => return repl.refuse(&words),
     };
@@ -254,42 +263,12 @@ fn measure(repl: &mut Repl, name: &str) -> Flow {
     repl.ended(made)
 }
 
-/// The options of a run, without a run, for reading them at the prompt.
-#[derive(Debug, Parser)]
-#[command(no_binary_name = true, disable_help_flag = true)]
-struct Options {
-    #[command(flatten)]
-    making: Making,
-}
-
-/// `making` with the options in `words` put over it.
-fn options_on(making: &Making, words: &str) -> Result<Making, String> {
-    let mut options = Options { making: making.clone() };
-    // Of two that exclude each other, the one said last wins.
-    let says = |name: &str| words.split_whitespace().any(|word| word.split('=').next() == Some(name));
-    if says("--resolution") {
-        options.making.fineness.cell = None;
-    }
-    if says("--cell") {
-        options.making.fineness.resolution = None;
-    }
-    if says("--view") {
-        options.making.look.camera = None;
-    }
-    if says("--camera") {
-        options.making.look.view = None;
-    }
-    let read = options.try_update_from(words.split_whitespace());
-    read.map_err(|error| error.to_string().trim_start_matches("error: ").lines().next().unwrap_or("").to_owned())?;
-    Ok(options.making)
-}
-
 fn set(repl: &mut Repl, argument: &str) -> Flow {
     if argument.is_empty() {
         return repl.show(&settings(&repl.making));
     }
     let option = argument.trim_start_matches('-').replacen('=', " ", usize::from(!argument.contains(' ')));
-    match options_on(&repl.making, &format!("--{option}")) {
+    match repl.making.with(&format!("--{option}")) {
         Ok(making) => {
             repl.making = making;
             Flow::Changed
@@ -356,12 +335,12 @@ mod tests {
 
     #[test]
     fn options_are_laid_over_each_other() {
-        let making = options_on(&Making::default(), "--resolution 64 --view top").expect("options");
+        let making = Making::default().with("--resolution 64 --view top").expect("options");
         assert_eq!(making.fineness.resolution, Some(64));
-        let making = options_on(&making, "--cell 0.5").expect("options");
+        let making = making.with("--cell 0.5").expect("options");
         assert_eq!((making.fineness.cell, making.fineness.resolution), (Some(0.5), None));
         assert_eq!(settings(&making), "cell 0.5\nview top");
-        let words = options_on(&making, "--resolution much").expect_err("no number");
+        let words = making.with("--resolution much").expect_err("no number");
         assert!(words.contains("`much` is not a whole number"), "{words}");
     }
 }

@@ -212,7 +212,8 @@ mod tests {
         let assistant = Assistant { names: Vec::new(), colour: true };
         for line in ["gob_a = (x1 + 1.5) & SIN(é); // ≤", "({\"", ""] {
             let painted = assistant.highlight(line, 8.min(line.len()));
-            let plain = painted.split('\x1b').map(|p| p.strip_prefix('[').map_or(p, |p| p.split_once('m').map_or("", |s| s.1)));
+            let plain =
+                painted.split('\x1b').map(|p| p.strip_prefix('[').map_or(p, |p| p.split_once('m').map_or("", |s| s.1)));
             assert_eq!(plain.collect::<String>(), line);
         }
     }

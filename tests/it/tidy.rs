@@ -19,14 +19,43 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("data", &["limits", "interrupt", "number"]),
     ("export", &["interrupt", "surface", "picture"]),
     ("host", &["diagnostic"]),
-    ("model", &[
-        "source", "limits", "interrupt", "number", "diagnostic", "syntax", "builtins", "field", "vm", "surface", "picture",
-        "data", "export", "host",
-    ]),
-    ("cli", &[
-        "source", "limits", "interrupt", "number", "diagnostic", "syntax", "builtins", "surface", "picture", "export",
-        "host", "model",
-    ]),
+    (
+        "model",
+        &[
+            "source",
+            "limits",
+            "interrupt",
+            "number",
+            "diagnostic",
+            "syntax",
+            "builtins",
+            "field",
+            "vm",
+            "surface",
+            "picture",
+            "data",
+            "export",
+            "host",
+        ],
+    ),
+    (
+        "cli",
+        &[
+            "source",
+            "limits",
+            "interrupt",
+            "number",
+            "diagnostic",
+            "syntax",
+            "builtins",
+            "field",
+            "surface",
+            "picture",
+            "export",
+            "host",
+            "model",
+        ],
+    ),
     ("repl", &["source", "limits", "interrupt", "diagnostic", "syntax", "builtins", "host", "model", "cli"]),
 ];
 
@@ -156,7 +185,11 @@ fn the_table_of_layers_has_no_circle() {
 fn the_reader_of_paths_reads_them() {
     let cases: [(&str, &str, &[&str]); 4] = [
         ("src/vm/block.rs", "use crate::field::Graph;", &["field"]),
-        ("src/vm/block.rs", "use crate::{limits, number::{op::Unary, Leaf},\n  field};", &["limits", "number", "field"]),
+        (
+            "src/vm/block.rs",
+            "use crate::{limits, number::{op::Unary, Leaf},\n  field};",
+            &["limits", "number", "field"],
+        ),
         ("src/vm/block.rs", "use super::super::cli; use super::own;", &["cli"]),
         ("src/vm/mod.rs", "use super::cli; // crate::model", &["cli"]),
     ];
@@ -236,7 +269,8 @@ fn functions(lines: &[&str]) -> Vec<(usize, usize)> {
 
 #[test]
 fn the_reader_of_functions_finds_them() {
-    let text = "pub fn a() {\n    1\n}\nfn b() { 2 }\n    fn c(\n        x: f64,\n    ) {\n        3\n    }\n// fn d() {";
+    let text =
+        "pub fn a() {\n    1\n}\nfn b() { 2 }\n    fn c(\n        x: f64,\n    ) {\n        3\n    }\n// fn d() {";
     assert_eq!(functions(&text.lines().collect::<Vec<_>>()), [(0, 3), (4, 5)]);
 }
 
@@ -244,12 +278,28 @@ fn the_reader_of_functions_finds_them() {
 fn the_project_speaks_of_itself_alone() {
     // Written in halves, so that this list does not find itself.
     let halves = [
-        ("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("todo", "!("), ("place", "holder"), ("/wo", "rk/"), ("chat", "gpt"),
-        ("Cla", "ude"), ("Anth", "ropic"), ("language ", "model"), ("sub", "agent"), ("co-", "pilot"),
+        ("TO", "DO"),
+        ("FIX", "ME"),
+        ("XX", "X"),
+        ("todo", "!("),
+        ("place", "holder"),
+        ("/wo", "rk/"),
+        ("chat", "gpt"),
+        ("Cla", "ude"),
+        ("Anth", "ropic"),
+        ("language ", "model"),
+        ("sub", "agent"),
+        ("co-", "pilot"),
     ];
     let texts = [
-        sources(), files("tests", &["rs", "txt", "geo"]), files("benches", &["rs"]), files("examples", &["geo", "md"]),
-        files("stdlib", &["geo"]), files("grammar", &["pest"]), files("docs", &["md"]), top(),
+        sources(),
+        files("tests", &["rs", "txt", "geo"]),
+        files("benches", &["rs"]),
+        files("examples", &["geo", "md"]),
+        files("stdlib", &["geo"]),
+        files("grammar", &["pest"]),
+        files("docs", &["md"]),
+        top(),
     ];
     let mut wrong = Vec::new();
     for (path, text) in texts.concat() {
@@ -263,7 +313,8 @@ fn the_project_speaks_of_itself_alone() {
 }
 
 fn top() -> Vec<(String, String)> {
-    let names = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md", "Cargo.toml", ".ci/run"];
+    let names =
+        ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md", "Cargo.toml", ".ci/run"];
     names.iter().map(|name| ((*name).to_owned(), fs::read_to_string(root().join(name)).expect(name))).collect()
 }
 
@@ -277,7 +328,10 @@ fn every_dependency_has_its_line_in_the_architecture() {
         if line.starts_with('[') {
             inside = line.contains("dependencies]");
         } else if let (true, Some((name, _))) = (inside, line.split_once(" = ")) {
-            assert!(architecture.contains(&format!("`{name}`")), "ARCHITECTURE.md does not say what {name} does for us");
+            assert!(
+                architecture.contains(&format!("`{name}`")),
+                "ARCHITECTURE.md does not say what {name} does for us"
+            );
             count += 1;
         }
     }
