@@ -130,7 +130,9 @@ impl Console {
 
     fn rendered(&self, sources: &SourceMap, diagnostic: &Diagnostic) -> String {
         match self.rendering {
-            Rendering::Human => render::human(diagnostic, sources, if self.colour { Colour::Ansi } else { Colour::Plain }),
+            Rendering::Human => {
+                render::human(diagnostic, sources, if self.colour { Colour::Ansi } else { Colour::Plain })
+            }
             Rendering::Short => render::short(diagnostic, sources),
             Rendering::Json => render::json(diagnostic, sources),
         }

@@ -24,8 +24,16 @@ pub fn view(making: &Making) -> View {
     };
     View {
         object: making.subject.object.clone(),
-        at: making.subject.at.iter().map(|section| (section.coordinate, section.value)).collect(),
-        bounds: making.subject.bounds.iter().map(|extent| (extent.coordinate, extent.lo, extent.hi)).collect(),
+        at: making.subject.at.iter().map(|section| (Coordinate(section.coordinate), section.value)).collect(),
+        bounds: making
+            .subject
+            .bounds
+            .iter()
+            .map(|extent| (Coordinate(extent.coordinate), extent.lo, extent.hi))
+            .collect(),
         cells,
     }
+}
+pub fn make(_: &Console, _: &Signals, _: &mut Session, _: &Making, _: &Output) -> Result<Status, Status> {
+    Ok(Status::Done)
 }

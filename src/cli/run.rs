@@ -43,3 +43,23 @@ fn outputs(console: &Console, run: &Run) -> Result<Vec<Output>, Status> {
     }
     Ok(outputs)
 }
+
+/// Tells what a program did: what it printed and the values of its expressions, and, unless files were asked for, each
+/// object that it defined. Gives the value of the last expression, if that is a number.
+///
+/// # Errors
+/// As [`Console::print`].
+pub fn tell(console: &Console, events: &[Event], quiet: bool) -> Result<Option<f64>, Status> {
+    let mut last = None;
+    for event in events {
+        match event {
+            Event::Defined(line) if quiet => console.detail(line),
+            Event::Defined(line) | Event::Printed(line) => console.print(line)?,
+            Event::Value { text, number } => {
+                console.print(text)?;
+                last = *number;
+            }
+        }
+    }
+    Ok(last)
+}
