@@ -118,6 +118,7 @@ pub enum FoldOp {
 }
 
 /// The kinds of expression.
+#[expect(missing_docs, reason = "the form above each variant names its parts")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExprKind {
     /// `1.5e-3`
@@ -246,6 +247,7 @@ pub struct Statement {
 }
 
 /// The kinds of statement.
+#[expect(missing_docs, reason = "the form above each variant names its parts")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum StatementKind {
     /// `name = e`, `name(p, q) = e`, `r1 = 4 IN [1, 8] STEP 0.5`

@@ -170,13 +170,12 @@ fn head(around: &Around<'_>) -> Option<Diagnostic> {
     let assigned =
         |at: usize| around.tokens.get(at).is_some_and(|t| t.kind == TokenKind::Symbol && t.text(text) == "=");
     let span = around.place.span(token);
-    if token.kind == TokenKind::Word && definition_head(text, &around.tokens, around.at).is_some() {
-        if coordinate_digits(word).is_some() && around.before().is_none_or(|t| !t.ends_operand(text)) {
-            let help =
-                "to fix a coordinate write `x1 : CONSTANT = 0.5;` or `... AT (x1 = 0.5)`; its range is x1min and x1max";
-            let title = format!("`{word}` is a coordinate and cannot be defined");
-            return Some(error("defined-coordinate", title).at(span, "").help(help));
-        }
+    let heads = token.kind == TokenKind::Word && definition_head(text, &around.tokens, around.at).is_some();
+    if heads && coordinate_digits(word).is_some() && around.before().is_none_or(|t| !t.ends_operand(text)) {
+        let help =
+            "to fix a coordinate write `x1 : CONSTANT = 0.5;` or `... AT (x1 = 0.5)`; its range is x1min and x1max";
+        let title = format!("`{word}` is a coordinate and cannot be defined");
+        return Some(error("defined-coordinate", title).at(span, "").help(help));
     }
     if token.kind == TokenKind::Word && is_reserved(word) && assigned(around.at + 1) {
         return Some(reserved(around, token));
