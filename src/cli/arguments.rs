@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use super::output::Format;
+use crate::model::request::{FORMATS, Format};
+
 use super::values::{Assignment, Extent, Section, Size, assignment, extent, positive, section, size, triple};
 
 /// The whole command line.
@@ -222,7 +224,7 @@ pub struct Run {
     #[arg(short, long = "output", value_name = "OUT")]
     pub output: Vec<String>,
     /// The format of `-o -`
-    #[arg(long, value_name = "FORMAT")]
+    #[arg(long, value_name = "FORMAT", value_parser = formats())]
     pub format: Option<Format>,
     /// Stay at the prompt after the program has run
     #[arg(short, long)]
@@ -233,6 +235,12 @@ pub struct Run {
     /// How results are made
     #[command(flatten)]
     pub making: Making,
+}
+
+fn formats() -> impl TypedValueParser<Value = Format> {
+    let values = FORMATS.iter().map(|(_, extension, what, _)| PossibleValue::new(*extension).help(*what));
+    // The list above admits nothing that is no format.
+    PossibleValuesParser::new(values).map(|name| Format::by_extension(&name).unwrap_or(Format::Stl))
 }
 
 /// How results are made: everything that decides what is in a file.

@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
+use clap::ValueEnum;
+
 use crate::field::Coordinate;
 use crate::model::Session;
-use crate::model::request::{self, Cells, PictureOptions, Timing, View};
+use crate::model::request::{self, Cells, Options, Output, PictureOptions, Timing, View};
 
 use super::arguments::{Making, Palette, Side};
 use super::console::Console;
 use super::engine::Signals;
-use super::output::{Output, Target};
 use super::status::Status;
 
 /// Which object, which part of its space, how finely.
@@ -36,4 +37,27 @@ pub fn view(making: &Making) -> View {
 }
 pub fn make(_: &Console, _: &Signals, _: &mut Session, _: &Making, _: &Output) -> Result<Status, Status> {
     Ok(Status::Done)
+}
+
+/// Everything that decides what is made.
+#[must_use]
+pub fn options(making: &Making) -> Options {
+    let (picture, timing) = (PictureOptions::default(), Timing::default());
+    let look = &making.look;
+    Options {
+        view: view(making),
+        picture: PictureOptions {
+            size: look.size.map_or(picture.size, |size| (size.width, size.height)),
+            supersample: look.supersample.unwrap_or(picture.supersample),
+            view: look.view.map_or(picture.view, name),
+            camera: look.camera,
+            palette: look.palette.map_or(picture.palette, name),
+        },
+        timing: Timing { frames: making.motion.frames, fps: making.motion.fps.unwrap_or(timing.fps) },
+    }
+}
+
+/// The word of a value, as the command line has it.
+fn name(value: impl ValueEnum) -> String {
+    value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }

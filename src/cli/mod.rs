@@ -5,7 +5,6 @@ pub mod console;
 pub mod engine;
 pub mod inspect;
 pub mod make;
-pub mod output;
 pub mod progress;
 pub mod run;
 pub mod sample;

@@ -1,12 +1,12 @@
 //! `yont FILE -o OUT`: runs a program, tells what it printed, and makes what was asked for.
 
 use crate::model::Event;
+use crate::model::request::Output;
 
 use super::Prompt;
 use super::arguments::Run;
 use super::console::Console;
 use super::engine::Signals;
-use super::output::Output;
 use super::status::Status;
 use super::{make, session};
 

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use crate::cli::arguments::Making;
-use crate::cli::output::{Kind, Output};
 use crate::cli::{make, session, status::Status, text};
 use crate::host::{Disk, Host};
+use crate::model::request::{Kind, Output};
 use crate::{builtins, cli};
 
 use super::Repl;
