@@ -1,1 +1,18 @@
 //! Pictures of functions: cameras, ray casting, plots, palettes, animations. Knows no language and no files.
+//!
+//! [`raycast`] shows a 3-D object in the light, [`plot`] a 2-D object as a filled picture, [`animation`] frames over a parameter.
+//! Each takes a compiled [`crate::vm::Shape`] and gives an [`Image`]; the same input gives the same bytes for any number of threads.
+
+pub mod animation;
+pub mod camera;
+pub mod extent;
+pub mod image;
+pub mod palette;
+pub mod plot;
+pub mod raycast;
+pub mod rays;
+pub mod shade;
+
+pub use camera::{Camera, Projection, View};
+pub use image::Image;
+pub use palette::Palette;

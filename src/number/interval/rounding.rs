@@ -20,7 +20,7 @@ pub(super) fn most(a: f64, b: f64) -> f64 {
 #[must_use]
 pub fn next_up(x: f64) -> f64 {
     let bits = x.to_bits().cast_signed();
-    let next = f64::from_bits((bits + (1 | (bits >> 63))).cast_unsigned());
+    let next = f64::from_bits(bits.wrapping_add(1 | (bits >> 63)).cast_unsigned());
     if (x == 0.0) | (x == f64::INFINITY) { x } else { next }
 }
 
