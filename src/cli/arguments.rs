@@ -6,6 +6,8 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::model::request::{FORMATS, Format};
+use crate::picture::camera::View;
+use crate::picture::palette::Palette;
 
 use super::values::{Assignment, Extent, Section, Size, assignment, extent, positive, section, size, triple};
 
@@ -162,44 +164,14 @@ pub struct Look {
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, conflicts_with = "view", allow_hyphen_values = true)]
     pub camera: Option<[f64; 3]>,
     /// The side that the camera looks from
-    #[arg(long, value_name = "SIDE")]
-    pub view: Option<Side>,
-    /// The colours of a plot; `mono` is black inside and white outside
-    #[arg(long, value_name = "NAME")]
-    pub palette: Option<Palette>,
+    #[arg(long, value_name = "SIDE", value_parser = views())]
+    pub view: Option<String>,
+    /// The colours; in a plot, `mono` is black inside and white outside
+    #[arg(long, value_name = "NAME", value_parser = palettes())]
+    pub palette: Option<String>,
     /// Samples along each side of a pixel
     #[arg(long, value_name = "N", value_parser = positive)]
     pub supersample: Option<usize>,
-}
-
-/// The sides of a view.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Side {
-    /// From the right, the front and above
-    #[default]
-    Iso,
-    /// Along the second axis
-    Front,
-    /// Against the second axis
-    Back,
-    /// Along the first axis
-    Left,
-    /// Against the first axis
-    Right,
-    /// From above
-    Top,
-    /// From below
-    Bottom,
-}
-
-/// The palettes of plots.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Palette {
-    /// Warm inside, cool outside
-    #[default]
-    Signed,
-    /// Black inside, white outside
-    Mono,
 }
 
 /// The frames of an animation.
@@ -241,6 +213,14 @@ fn formats() -> impl TypedValueParser<Value = Format> {
     let values = FORMATS.iter().map(|(_, extension, what, _)| PossibleValue::new(*extension).help(*what));
     // The list above admits nothing that is no format.
     PossibleValuesParser::new(values).map(|name| Format::by_extension(&name).unwrap_or(Format::Stl))
+}
+
+fn views() -> PossibleValuesParser {
+    PossibleValuesParser::new(View::NAMES.iter().map(|named| named.0).chain(["perspective"]))
+}
+
+fn palettes() -> PossibleValuesParser {
+    PossibleValuesParser::new(Palette::NAMES.iter().map(|named| named.0))
 }
 
 /// How results are made: everything that decides what is in a file.

@@ -3,13 +3,11 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use clap::ValueEnum;
-
 use crate::field::Coordinate;
 use crate::model::Session;
 use crate::model::request::{self, Cells, Options, Output, PictureOptions, Timing, View};
 
-use super::arguments::{Making, Palette, Side};
+use super::arguments::Making;
 use super::console::Console;
 use super::engine::Signals;
 use super::status::Status;
@@ -49,15 +47,10 @@ pub fn options(making: &Making) -> Options {
         picture: PictureOptions {
             size: look.size.map_or(picture.size, |size| (size.width, size.height)),
             supersample: look.supersample.unwrap_or(picture.supersample),
-            view: look.view.map_or(picture.view, name),
+            view: look.view.clone().unwrap_or(picture.view),
             camera: look.camera,
-            palette: look.palette.map_or(picture.palette, name),
+            palette: look.palette.clone().unwrap_or(picture.palette),
         },
         timing: Timing { frames: making.motion.frames, fps: making.motion.fps.unwrap_or(timing.fps) },
     }
-}
-
-/// The word of a value, as the command line has it.
-fn name(value: impl ValueEnum) -> String {
-    value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }

@@ -284,9 +284,9 @@ fn settings(making: &Making) -> String {
     say("resolution", making.fineness.resolution.map(|n| n.to_string()));
     say("cell", making.fineness.cell.map(|length| length.to_string()));
     say("size", making.look.size.map(|size| format!("{}x{}", size.width, size.height)));
-    say("view", making.look.view.map(|view| format!("{view:?}").to_lowercase()));
+    say("view", making.look.view.clone());
     say("camera", making.look.camera.map(|[x, y, z]| format!("{x},{y},{z}")));
-    say("palette", making.look.palette.map(|palette| format!("{palette:?}").to_lowercase()));
+    say("palette", making.look.palette.clone());
     say("supersample", making.look.supersample.map(|n| n.to_string()));
     say("frames", making.motion.frames.map(|n| n.to_string()));
     say("fps", making.motion.fps.map(|n| n.to_string()));
