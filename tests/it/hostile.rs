@@ -27,7 +27,12 @@ const PROGRAMS: &[(&str, &str, i32, &[&str])] = &[
     ("index out of range", "a = [1, 2, 3]; gob_a = a[4] - x1**2;", 3, &["4", "3"]),
     ("known to be undefined", "gob_a = SQRT(-1) - x1**2;", 3, &["SQRT"]),
     ("no such coordinate", "gob_a = 1 - x17**2;", 3, &["x17"]),
-    ("missing volume", "gob_a = INTERPOLATE(\"trilinear\", \"none.nrrd\", x1, x2, x3);", 4, &["none.nrrd", "no such file"]),
+    (
+        "missing volume",
+        "gob_a = INTERPOLATE(\"trilinear\", \"none.nrrd\", x1, x2, x3);",
+        4,
+        &["none.nrrd", "no such file"],
+    ),
     ("truncated volume", "gob_a = INTERPOLATE(\"trilinear\", \"short.nrrd\", x1, x2, x3);", 4, &["short.nrrd"]),
     ("lying volume", "gob_a = INTERPOLATE(\"trilinear\", \"lying.nrrd\", x1, x2, x3);", 4, &["lying.nrrd"]),
     ("garbage volume", "gob_a = INTERPOLATE(\"trilinear\", \"garbage.nrrd\", x1, x2, x3);", 4, &["garbage.nrrd"]),
@@ -166,7 +171,9 @@ fn what_is_no_file_is_not_read() {
     let pipe = folder.path().join("pipe.geo");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(made.is_ok_and(|status| status.success()), "mkfifo is part of every Unix");
-    for (file, words) in [("pipe.geo", "a pipe"), ("/dev/zero", "a device"), (".", "a folder"), ("none", "no such file")] {
+    for (file, words) in
+        [("pipe.geo", "a pipe"), ("/dev/zero", "a device"), (".", "a folder"), ("none", "no such file")]
+    {
         let ran = run(folder.path(), &[file], "");
         assert_eq!(ran.status, Some(4), "{file}: {}", ran.err);
         assert!(ran.err.contains(words), "{file}: {}", ran.err);
