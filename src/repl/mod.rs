@@ -110,6 +110,7 @@ impl Repl {
     fn listen(mut self) -> Status {
         let mut status = Status::Done;
         let mut pending = String::new();
+        let mut again = 0;
         let limit = Limits::default().source_bytes;
         let mut input = std::io::stdin().lock().take(limit as u64 + 1);
         loop {
@@ -126,7 +127,7 @@ impl Repl {
                 let error = FileError::reading(Path::new("standard input"), Reason::TooLarge(limit));
                 return status.or(self.console.file_error(&error));
             }
-            if ended || !is_incomplete(&pending) {
+            if ended || (pending.len() >= again && !is_incomplete(&pending)) {
                 let flow = self.take(&std::mem::take(&mut pending));
                 match flow {
                     Flow::Leave => return status,
@@ -138,6 +139,9 @@ impl Repl {
             if ended {
                 return status;
             }
+            // An input that stays open for long is looked at again only when it has grown by a part of itself: else a
+            // pasted file with an open comment would be parsed once for each of its lines.
+            again = if pending.is_empty() { 0 } else { pending.len() + pending.len() / 256 };
         }
     }
 
