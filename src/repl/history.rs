@@ -1,6 +1,7 @@
 //! What was typed: a history that keeps failed inputs too, and a journal from which a killed session comes back.
 //!
-//! Both are appended to and on the disk before the prompt returns; neither is ever written anew while it is in use.
+//! Both are appended to and on the disk before the prompt returns. Only a history that has grown long is written anew, whole,
+//! at a start.
 //! Without a folder for state, a session goes on without either.
 
 use std::path::{Path, PathBuf};
@@ -10,7 +11,9 @@ use crate::host::{Disk, FileError, Host, Journal, append_line, nanoseconds};
 /// Inputs that the arrow keys reach.
 pub const HISTORY: usize = 10_000;
 /// Bytes of a history or journal that are read back.
-const MOST: usize = 64 << 20;
+const MOST: usize = 1 << 30;
+/// Bytes of an input from which the history does not keep it; the journal does.
+const LONGEST: usize = 16 << 10;
 
 /// The history and the journal of one session.
 #[derive(Debug, Default)]
@@ -45,8 +48,15 @@ impl Memory {
     #[must_use]
     pub fn history(&self) -> Vec<String> {
         let Some(folder) = &self.folder else { return Vec::new() };
-        let mut inputs = lines(&folder.join("history"));
+        let path = folder.join("history");
+        let mut inputs = lines(&path);
+        let grown = inputs.len() > 4 * HISTORY;
         inputs.drain(..inputs.len().saturating_sub(HISTORY));
+        if grown {
+            // A history that cannot be shortened stays long, and is as good.
+            let _ = Disk
+                .write_whole(&path, &mut |out| inputs.iter().try_for_each(|input| writeln!(out, "{}", encoded(input))));
+        }
         inputs
     }
 
@@ -56,6 +66,7 @@ impl Memory {
     /// [`FileError`] when the history cannot be written.
     pub fn typed(&self, input: &str) -> Result<(), FileError> {
         match &self.folder {
+            Some(_) if input.len() > LONGEST => Ok(()),
             Some(folder) => append_line(&folder.join("history"), &encoded(input)),
             None => Ok(()),
         }

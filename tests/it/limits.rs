@@ -29,16 +29,22 @@ const CASES: &[Case] = &[
     ("source_bytes", 100, |limits, n| limits.source_bytes = n, |n| format!("a = 1;{}", " ".repeat(n - 6))),
     ("nesting", 50, |limits, n| limits.nesting = n, |n| format!("a = {}1{};", "(".repeat(n), ")".repeat(n))),
     ("nesting of arrays", 50, |limits, n| limits.nesting = n, |n| format!("a = {}1{};", "[".repeat(n), "]".repeat(n))),
-    ("call_depth", 30, |limits, n| limits.call_depth = n, |n| {
-        format!("f(n) = IF (n <= 1) THEN 1 ELSE f(n - 1) + 1; a = f({n});")
-    }),
+    (
+        "call_depth",
+        30,
+        |limits, n| limits.call_depth = n,
+        |n| format!("f(n) = IF (n <= 1) THEN 1 ELSE f(n - 1) + 1; a = f({n});"),
+    ),
     ("loop_turns", 40, |limits, n| limits.loop_turns = n, |n| format!("a = 0; FOR i = 1 TO {n} DO a = a + i;")),
-    ("loop_turns of WHILE", 40, |limits, n| limits.loop_turns = n, |n| {
-        format!("i = 0; WHILE (i < {n}) DO i = i + 1;")
-    }),
+    ("loop_turns of WHILE", 40, |limits, n| limits.loop_turns = n, |n| format!("i = 0; WHILE (i < {n}) DO i = i + 1;")),
     ("loop_turns of SUM", 40, |limits, n| limits.loop_turns = n, |n| format!("a = SUM(i = 1 TO {n}, i);")),
     ("array_elements", 20, |limits, n| limits.array_elements = n, |n| format!("a = ARRAY(i = 1 TO {n}, i);")),
-    ("array_elements of a literal", 20, |limits, n| limits.array_elements = n, |n| format!("a = [{}0];", "0, ".repeat(n - 1))),
+    (
+        "array_elements of a literal",
+        20,
+        |limits, n| limits.array_elements = n,
+        |n| format!("a = [{}0];", "0, ".repeat(n - 1)),
+    ),
 ];
 
 #[test]
