@@ -220,7 +220,8 @@ pub fn hypot<T: Float>(a: T, b: T) -> T {
     (x * x + y * y).root() * up
 }
 
-/// a to a whole power by repeated squaring, of 1/a for a negative one: within |n| units in the last place.
+/// a to a whole power by repeated squaring, of 1/a for a negative one: within n units in the last place, for a
+/// negative one twice as many.
 #[inline(always)]
 pub fn powi<T: Float>(a: T, n: i32) -> T {
     let mut square = if n < 0 { T::ONE / a } else { a };

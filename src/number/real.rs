@@ -12,6 +12,45 @@ impl Unary {
     /// The operation on a machine number.
     #[inline(always)]
     pub fn of<T: Float>(self, a: T) -> T {
+        if self.is_rare(a) { self.rare(a) } else { self.common(a) }
+    }
+
+    /// Whether [`Unary::common`] is not for this number: huge angles, which would break up a loop's vector code.
+    #[inline(always)]
+    pub fn is_rare<T: Float>(self, a: T) -> bool {
+        matches!(self, Self::Sin | Self::Cos | Self::Tan) && a.magnitude() > T::of(functions::NEAR)
+    }
+
+    /// The operation where it is rare: through the slow exact reduction.
+    #[cold]
+    fn rare<T: Float>(self, a: T) -> T {
+        match self {
+            Self::Sin => a.through(functions::sin),
+            Self::Cos => a.through(functions::cos),
+            Self::Tan => a.through(functions::tan),
+            other => other.common(a),
+        }
+    }
+
+    /// The operation on every number of a block, the same bits as [`Unary::of`]; with a constant `self` it is vector code.
+    /// What the longer slice has beyond the shorter stays.
+    #[inline(always)]
+    pub fn map<T: Float>(self, a: &[T], out: &mut [T]) {
+        let mut rare = false;
+        for (&a, out) in a.iter().zip(&mut *out) {
+            *out = self.common(a);
+            rare |= self.is_rare(a);
+        }
+        if rare {
+            for (&a, out) in a.iter().zip(out) {
+                *out = self.of(a);
+            }
+        }
+    }
+
+    /// The operation without branches, for numbers that are not rare.
+    #[inline(always)]
+    pub fn common<T: Float>(self, a: T) -> T {
         match self {
             Self::Neg => -a,
             Self::Abs => a.magnitude(),
@@ -27,9 +66,9 @@ impl Unary {
             Self::Exp => a.through(functions::exp),
             Self::Log => a.through(functions::log),
             Self::Log10 => a.through(functions::log10),
-            Self::Sin => a.through(functions::sin),
-            Self::Cos => a.through(functions::cos),
-            Self::Tan => a.through(functions::tan),
+            Self::Sin => a.through(functions::sin_near),
+            Self::Cos => a.through(functions::cos_near),
+            Self::Tan => a.through(functions::tan_near),
             Self::Asin => a.through(functions::asin),
             Self::Acos => a.through(functions::acos),
             Self::Atan => a.through(functions::atan),

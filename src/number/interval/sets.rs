@@ -90,10 +90,12 @@ fn smooth_of_defined(a: Interval, b: Interval, m: Interval) -> Interval {
     let m = m.clip(0.0, INF);
     let factor = Binary::Pow.interval(Binary::Hypot.interval(a, b), m);
     let value = Binary::Mul.interval(plain, factor);
-    // The sign is that of the larger operand, also where the product underflows.
+    // The sign is that of the larger operand, also where the product underflows: such bounds are the least numbers.
     let least_positive = f64::from_bits(1);
     let lo = if plain.lo > 0.0 { most(down(value.lo, ULPS), least_positive) } else { below(value.lo) };
+    let lo = if plain.lo < 0.0 { least(lo, -least_positive) } else { lo };
     let hi = if plain.hi < 0.0 { least(up(value.hi, ULPS), -least_positive) } else { above(value.hi) };
+    let hi = if plain.hi > 0.0 { most(hi, least_positive) } else { hi };
     Interval { lo, hi, undefined }
 }
 
