@@ -108,7 +108,7 @@ pub fn doc(text: &str, comments: &[(usize, usize)], start: usize) -> Arc<str> {
     let mut below = start;
     while let Some(&(from, to)) = first.checked_sub(1).and_then(|n| comments.get(n)) {
         let between = &text[to..below];
-        if !between.chars().all(char::is_whitespace) || lines(between) > 1 || trails(text, from, start) {
+        if !between.chars().all(char::is_whitespace) || lines(between) > 1 || trails(text, comments, first - 1, start) {
             break;
         }
         first -= 1;
@@ -122,11 +122,19 @@ fn lines(between: &str) -> usize {
     between.matches('\n').count().max(between.matches('\r').count())
 }
 
-/// Whether the comment at `from` stands behind something on its line, while `start` is on another line.
-fn trails(text: &str, from: usize, start: usize) -> bool {
-    let line = text[..from].rfind(['\n', '\r']).map_or(0, |n| n + 1);
-    let behind = !text[line..from].trim().is_empty() && !text[line..from].trim_start().starts_with('{');
-    behind && text[from..start].contains(['\n', '\r'])
+/// Whether comment number `at` stands behind something on its line, while `start` is on another line.
+fn trails(text: &str, comments: &[(usize, usize)], at: usize, start: usize) -> bool {
+    if !text[comments[at].0..start].contains(['\n', '\r']) {
+        return false;
+    }
+    for &(from, _) in comments[..=at].iter().rev() {
+        let before = text[..from].trim_end_matches([' ', '\t']);
+        let comment_before = comments.binary_search_by_key(&before.len(), |c| c.1).is_ok();
+        if !comment_before {
+            return !(before.is_empty() || before.ends_with(['\n', '\r']));
+        }
+    }
+    false
 }
 
 fn bare(comment: &str) -> &str {

@@ -278,8 +278,12 @@ fn single_expression(statements: &[Statement]) -> Option<Expr> {
     }
 }
 
-/// `IF c THEN a ELSE b WHERE ...`: the WHERE is of the whole, not of `b`.
+/// `IF c THEN a ELSE b WHERE ...`: the WHERE is of the whole, not of `b`; one of `a` is put in parentheses.
 fn if_expression(keyword: Span, condition: Expr, then: Expr, otherwise: Option<Expr>) -> Expr {
+    let then = match then.kind {
+        ExprKind::Where { .. } => Expr { span: then.span, kind: ExprKind::Paren(Box::new(then)) },
+        _ => then,
+    };
     let (otherwise, bindings) = match otherwise {
         Some(Expr { kind: ExprKind::Where { body, bindings }, .. }) => (Some(*body), bindings),
         other => (other, Vec::new()),
