@@ -23,4 +23,5 @@ mod propagation;
 mod prospero;
 mod repl;
 mod session;
+mod solids;
 mod tidy;

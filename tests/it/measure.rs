@@ -1,18 +1,19 @@
 //! Volumes, areas and moments against closed forms; how errors and costs change with the resolution; outlines of 2-D shapes.
 
 use yont::interrupt::Interrupt;
+use yont::limits::Limits;
 use yont::number::Ternary;
 use yont::surface::contour::{Contour, outlines};
 use yont::surface::measure::Integrals;
 use yont::surface::{Grid, Measures, Mesh, SurfaceError, extract, measure};
 use yont::vm::Demand;
 
-use crate::mesh::{Case, Ex, KNOWN, ball, shape_of};
+use crate::solids::{Case, Ex, KNOWN, ball, shape_of};
 
 const PI: f64 = std::f64::consts::PI;
 
 fn measured(case: &Case, resolution: usize) -> Measures {
-    measure(&case.shape(), &case.grid(resolution), &Interrupt::default())
+    measure(&case.shape(), &case.grid(resolution), &Limits::default(), &Interrupt::default())
         .unwrap_or_else(|error| panic!("{}: {error}", case.name))
 }
 
@@ -62,7 +63,8 @@ fn moments_of_a_shifted_ellipsoid_are_the_closed_forms() {
     };
     let bounds: [[f64; 2]; 3] = std::array::from_fn(|d| [at[d] - 1.0, at[d] + 1.0]);
     let grid = Grid::new(&bounds, 100).expect("a grid");
-    let measures = measure(&shape_of(field, 3, Demand::Sign), &grid, &Interrupt::default()).expect("a mesh");
+    let measures =
+        measure(&shape_of(field, 3, Demand::Sign), &grid, &Limits::default(), &Interrupt::default()).expect("a mesh");
     let mass = 4.0 / 3.0 * PI * axes[0] * axes[1] * axes[2];
     let squares = axes.map(|a| a * a);
     for d in 0..3 {
@@ -87,7 +89,7 @@ fn areas_are_those_of_closed_forms() {
 fn nothing_has_no_volume_and_no_bounds() {
     let empty = shape_of(|x, _, _| x.constant(-1.0), 3, Demand::Sign);
     let grid = Grid::new(&[[-1.0, 1.0]; 3], 16).expect("a grid");
-    let measures = measure(&empty, &grid, &Interrupt::default()).expect("an empty mesh is closed");
+    let measures = measure(&empty, &grid, &Limits::default(), &Interrupt::default()).expect("an empty mesh is closed");
     assert_eq!((measures.volume.value, measures.bounds, measures.topology.components), (0.0, None, 0));
     assert_eq!(Integrals::of(&Mesh::default()), Integrals::default());
 }
@@ -106,7 +108,7 @@ fn evaluations_grow_like_the_surface() {
 fn outline(field: fn(Ex, Ex) -> Ex, half: [f64; 2], resolution: usize) -> Contour {
     let shape = shape_of(|x, y, _| field(x, y), 2, Demand::Sign);
     let grid = Grid::new(&half.map(|h| [-h, h]), resolution).expect("a grid");
-    outlines(&shape, &grid, &Interrupt::default()).expect("outlines")
+    outlines(&shape, &grid, &Limits::default(), &Interrupt::default()).expect("outlines")
 }
 
 /// Name, field, half sizes of the space, outlines, Euler characteristic, area, perimeter.
@@ -170,8 +172,14 @@ fn outlines_never_lose_a_crossing() {
 fn a_solid_has_no_outline() {
     let grid = Grid::new(&[[-1.0, 1.0]; 2], 8).expect("a grid");
     let solid = shape_of(ball, 3, Demand::Sign);
-    assert_eq!(outlines(&solid, &grid, &Interrupt::default()).err(), Some(SurfaceError::Dimension(3, 2)));
+    assert_eq!(
+        outlines(&solid, &grid, &Limits::default(), &Interrupt::default()).err(),
+        Some(SurfaceError::Dimension(3, 2))
+    );
     let plane = shape_of(|x, _, _| x, 2, Demand::Sign);
     let space = Grid::new(&[[-1.0, 1.0]; 3], 8).expect("a grid");
-    assert_eq!(extract(&plane, &space, &Interrupt::default()).err(), Some(SurfaceError::Dimension(2, 3)));
+    assert_eq!(
+        extract(&plane, &space, &Limits::default(), &Interrupt::default()).err(),
+        Some(SurfaceError::Dimension(2, 3))
+    );
 }
