@@ -33,7 +33,8 @@ pub fn read_text(file: &Path) -> Result<String, FileError> {
 }
 
 /// What messages call a file.
-fn name(file: &Path) -> String {
+#[must_use]
+pub fn name(file: &Path) -> String {
     if file == Path::new("-") { "<standard input>".into() } else { file.display().to_string() }
 }
 

@@ -9,6 +9,7 @@ use crate::diagnostic::near::{Candidate, suggest};
 use crate::host::{Disk, Host};
 use crate::limits::Limits;
 use crate::source::SourceMap;
+use crate::syntax::print::format;
 
 use super::arguments::{Check, Cli, Doc, Fmt, Program};
 use super::console::Console;
