@@ -42,11 +42,11 @@ fn fmt_one(console: &Console, file: &Path, check: bool) -> Result<Status, Status
         Err(error) => return Ok(console.file_error(&error)),
     };
     let mut sources = SourceMap::default();
-    let formatted =
-        match crate::syntax::print::format(&mut sources, &file.display().to_string(), &text, &Limits::default()) {
-            Ok(formatted) => formatted,
-            Err(diagnostics) => return Ok(console.report(&sources, &diagnostics)),
-        };
+    let id = sources.add(session::name(file), text.as_str());
+    let formatted = match format(&sources, id, &Limits::default()) {
+        Ok(formatted) => formatted,
+        Err(diagnostics) => return Ok(console.report(&sources, &diagnostics)),
+    };
     if file == Path::new("-") && !check {
         console.write(|out| out.write_all(formatted.as_bytes()))?;
     } else if formatted != text {
