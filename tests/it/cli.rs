@@ -216,7 +216,7 @@ fn warnings_count_as_errors_when_asked() {
 fn a_closed_pipe_is_no_error() {
     let folder = folder(&[]);
     let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_yont"))
-        .args(["-e", "a = [0]; FOR i = 1 TO 100000 DO a[i] = i; PRINT a;"])
+        .args(["-e", "PRINT ARRAY(i = 1 TO 100000, i);"])
         .current_dir(folder.path())
         .stdout(std::process::Stdio::piped())
         .stderr(std::process::Stdio::piped())

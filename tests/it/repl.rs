@@ -15,7 +15,7 @@ use super::cli::{BALL, folder, run};
 const PIPED: &[(&str, &str, &[&str], &[&str], i32)] = &[
     ("a value", "1 + 2*3\n", &["7"], &[], 0),
     ("a definition and its value", "a = 4;\na**2\n", &["16"], &[], 0),
-    ("a definition propagates", "b = a + 1;\na = 4;\nb\na = 5;\nb\n", &["5\n", "6\n"], &[], 0),
+    ("a definition propagates", "b = a + 1;\na = 4;\nb\na = 5;\nb\n", &["5\n", "6\n"], &["not defined yet"], 0),
     ("input that goes on", "a = (1 +\n2)*\n3\na\n", &["9"], &[], 0),
     ("a comment that goes on", "{ one\ntwo }\n7\n", &["7"], &[], 0),
     ("a block that goes on", "i = 1;\nWHILE (i < 10) DO BEGIN\ni = 2*i;\nEND;\ni\n", &["16"], &[], 0),
