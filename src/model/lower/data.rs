@@ -1,12 +1,14 @@
 //! Data as functions: INTERPOLATE reads its file through the host and makes a leaf of it.
 
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
 use crate::builtins::Builtin;
-use crate::diagnostic::Diagnostic;
+use crate::data::{self, DataError, Interpolation};
+use crate::diagnostic::{Category, Diagnostic};
 use crate::field::SharedLeaf;
 use crate::number::Leaf;
 use crate::source::Span;
@@ -66,10 +68,30 @@ impl Lower<'_> {
         Ok(leaf)
     }
 
-    fn decode(&self, _kind: &str, path: &Path, _bytes: &[u8], _at: Span, span: Span) -> Lowered<Arc<dyn Leaf>> {
-        Err(Diagnostic::error("volume", format!("`{}` is of no known volume format", path.display()))
-            .at(span, "")
-            .into())
+    fn decode(&self, kind: &str, path: &Path, bytes: &[u8], kind_at: Span, file_at: Span) -> Lowered<Arc<dyn Leaf>> {
+        let Some(kind) = Interpolation::from_name(kind) else {
+            let known: Vec<String> = Interpolation::NAMES.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+            return Err(Diagnostic::error("interpolation-kind", format!("there is no interpolation \"{kind}\""))
+                .at(kind_at, "")
+                .help(format!("the kinds are {}", known.join(", ")))
+                .into());
+        };
+        let mut fetch = |file: &str| {
+            let beside = crate::host::resolve(Some(path), Path::new(file));
+            let read = self.world.host.read(&beside, self.world.limits.data_bytes);
+            read.map_err(|e| io::Error::other(e.to_string()))
+        };
+        let context = data::Context { limits: self.world.limits, interrupt: self.world.interrupt };
+        let leaf = data::decode(&path.display().to_string(), bytes, &mut fetch, context)
+            .and_then(|volume| Arc::new(volume).leaf(kind));
+        leaf.map_err(|error| match error {
+            DataError::Cancelled => super::Fault::Cancelled,
+            error => Diagnostic::error("bad-data", format!("`{}`: {error}", path.display()))
+                .category(Category::File)
+                .at(file_at, "")
+                .help(error.help())
+                .into(),
+        })
     }
 
     pub(super) fn project(&mut self, _arguments: &[Expr], span: Span) -> Lowered<Value> {
