@@ -10,7 +10,7 @@ use crate::field::Graph;
 use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
-use crate::source::{SourceId, SourceMap};
+use crate::source::{SourceId, SourceMap, Span};
 use crate::syntax::Mode;
 use crate::syntax::tree::Name;
 
@@ -275,6 +275,12 @@ impl Session {
             Some(Err(told)) => format!("{name}: fails, {}", told.title),
             None => format!("{name}: has no value"),
         }
+    }
+
+    /// Where a name is defined.
+    #[must_use]
+    pub fn place(&self, name: &str) -> Option<Span> {
+        self.state.get(name).map(|definition| definition.place())
     }
 
     /// The value of a name, or why it has none; nothing if it is unknown.

@@ -100,7 +100,11 @@ impl fmt::Display for Measured {
                     writeln!(f, "  bounding box  {lo:.6?} to {hi:.6?}")?;
                 }
                 let t = &m.topology;
-                write!(f, "  topology      Euler characteristic {}, components {}, genus {}", t.euler, t.components, t.genus)?;
+                write!(
+                    f,
+                    "  topology      Euler characteristic {}, components {}, genus {}",
+                    t.euler, t.components, t.genus
+                )?;
                 write!(f, "\n  mesh          {triangles} triangles, closed")
             }
             Dimension::Plane { area, perimeter, euler } => {

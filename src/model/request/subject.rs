@@ -129,7 +129,8 @@ impl Subject {
                 Diagnostic::error("no-extent", title).help(help)
             }
             GridError::Dimension(n) => {
-                let title = format!("`{}` is an object of {n} coordinates here; this output needs two or three", self.name);
+                let title =
+                    format!("`{}` is an object of {n} coordinates here; this output needs two or three", self.name);
                 Diagnostic::error("dimension", title)
             }
             GridError::Resolution(n) => Diagnostic::error("resolution", format!("{n} cells along the longest side"))
@@ -143,7 +144,8 @@ impl Subject {
             CompileError::TooLarge(limit) => format!("`{}` takes more than {limit} operations", self.name),
             CompileError::Unbound(c) => format!("`{}` depends on {c}, which has no value here", self.name),
         };
-        let diagnostic = Diagnostic::error("too-large", title).help("make it of fewer parts, or give each coordinate a type");
+        let diagnostic =
+            Diagnostic::error("too-large", title).help("make it of fewer parts, or give each coordinate a type");
         match self.span {
             Some(span) => diagnostic.at(span, "defined here"),
             None => diagnostic,
