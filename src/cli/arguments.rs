@@ -9,7 +9,7 @@ use crate::model::request::{FORMATS, Format};
 use crate::picture::camera::View;
 use crate::picture::palette::Palette;
 
-use super::values::{Assignment, Extent, Section, Size, assignment, extent, positive, section, size, triple};
+use super::values::{Assignment, Extent, Section, Size, angles, assignment, extent, positive, section, size};
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -123,7 +123,7 @@ pub struct Program {
     /// The program itself, repeatable; runs after FILE
     #[arg(short = 'e', long = "evaluate", value_name = "CODE")]
     pub code: Vec<String>,
-    /// Define NAME anew after the program has been read, repeatable
+    /// Define NAME, whatever the program says, repeatable
     #[arg(short = 'D', long = "define", value_name = "NAME=EXPR", value_parser = assignment)]
     pub define: Vec<Assignment>,
 }
@@ -157,12 +157,12 @@ pub struct Fineness {
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 #[command(next_help_heading = "Pictures")]
 pub struct Look {
-    /// Pixels of a picture (default 640x480)
+    /// Pixels of a picture; by default a size that suits the object
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
-    /// The direction from the object to the eye, instead of --view
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, conflicts_with = "view", allow_hyphen_values = true)]
-    pub camera: Option<[f64; 3]>,
+    /// Where the camera stands, in degrees: around the object from its front, and above it; instead of --view
+    #[arg(long, value_name = "AROUND,ABOVE", value_parser = angles, conflicts_with = "view", allow_hyphen_values = true)]
+    pub camera: Option<[f64; 2]>,
     /// The side that the camera looks from
     #[arg(long, value_name = "SIDE", value_parser = views())]
     pub view: Option<String>,

@@ -20,10 +20,8 @@ pub struct Console {
     rendering: Rendering,
     colour: bool,
     quiet: bool,
-    /// `-v`.
-    pub verbose: bool,
-    /// `--timings`.
-    pub timings: bool,
+    verbose: bool,
+    timings: bool,
     strict: bool,
 }
 
@@ -87,6 +85,12 @@ impl Console {
         if !self.quiet {
             self.say(text);
         }
+    }
+
+    /// Whether to tell what a result cost.
+    #[must_use]
+    pub fn costs(&self) -> bool {
+        self.verbose || self.timings
     }
 
     /// Tells how long `what` took, with `--timings`.

@@ -24,7 +24,7 @@ pub fn run(console: &Console, signals: &Signals, run: Run, prompt: fn(Prompt) ->
     let value = tell(console, &events, !outputs.is_empty())?;
     let mut status = Status::Done;
     for output in &outputs {
-        status = status.or(make::make(console, signals, &mut session, &run.making, output)?);
+        status = status.or(make::make(console, &mut session, &run.making, output)?);
     }
     if run.exit_status && value == Some(0.0) {
         status = status.or(Status::Failed);

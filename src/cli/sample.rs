@@ -3,14 +3,52 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use crate::diagnostic::{Category, Diagnostic};
-use crate::host::{Disk, Host};
+use crate::host::{Disk, FileError, Host, Reason};
+use crate::model::request::{self, Sampled};
 
-use super::arguments::Sample;
+use super::arguments::{Making, Sample};
 use super::console::Console;
 use super::engine::Signals;
+use super::make::view;
 use super::session::{self, read_text};
 use super::status::Status;
+
+/// `yont sample FILE --points P.tsv`.
+///
+/// # Errors
+/// The status of what ended the command early.
+pub fn sample(console: &Console, signals: &Signals, options: &Sample) -> Result<Status, Status> {
+    let file = options.points.as_deref().unwrap_or(Path::new("-"));
+    if file == Path::new("-") && options.program.file.as_deref() == Some(file) {
+        return Err(console.usage("the program and the points cannot both come from standard input"));
+    }
+    let (mut session, _) = session::required(console, signals, &options.program)?;
+    let text = read_text(file).map_err(|error| console.file_error(&error))?;
+    let points = points(&text).map_err(|words| unread(console, file, &words))?;
+    let making = Making { subject: options.subject.clone(), ..Making::default() };
+    let sampled = {
+        let _progress = console.progress(session.interrupt(), "points");
+        request::sample(&mut session, &view(&making), &points, options.gradient)
+    };
+    match sampled {
+        Ok(values) => put(console, options.output.as_deref(), &values),
+        Err(diagnostics) => Ok(console.report(session.sources(), &diagnostics)),
+    }
+}
+
+fn unread(console: &Console, file: &Path, words: &str) -> Status {
+    console.file_error(&FileError::reading(file, Reason::Other(words.to_owned())))
+}
+
+fn put(console: &Console, file: Option<&Path>, values: &[Sampled]) -> Result<Status, Status> {
+    match file.filter(|file| *file != Path::new("-")) {
+        None => console.write(|out| write_values(out, values)).map(|()| Status::Done),
+        Some(file) => match Disk.write_whole(file, &mut |out| write_values(out, values)) {
+            Ok(()) => Ok(Status::Done),
+            Err(error) => Ok(console.file_error(&error)),
+        },
+    }
+}
 
 /// Reads points, one a line: numbers apart by white space or commas. A first line without numbers is a header; empty lines
 /// and lines that start with `#` are passed over.
@@ -44,10 +82,10 @@ pub fn points(text: &str) -> Result<Vec<Vec<f64>>, String> {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_values(out: &mut dyn Write, values: &[f64], slopes: &[Vec<f64>]) -> io::Result<()> {
-    for (at, value) in values.iter().enumerate() {
-        write!(out, "{}", digits(*value))?;
-        for slope in slopes.get(at).into_iter().flatten() {
+pub fn write_values(out: &mut dyn Write, values: &[Sampled]) -> io::Result<()> {
+    for sampled in values {
+        write!(out, "{}", digits(sampled.value))?;
+        for slope in &sampled.slope {
             write!(out, "\t{}", digits(*slope))?;
         }
         writeln!(out)?;
@@ -86,7 +124,4 @@ mod tests {
         }
         assert_eq!([digits(f64::NAN), digits(1e300), digits(0.5)], ["nan", "1e300", "0.5"]);
     }
-}
-pub fn sample(_: &Console, _: &Signals, _: &Sample) -> Result<Status, Status> {
-    Ok(Status::Done)
 }

@@ -3,8 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::diagnostic::Diagnostic;
 use crate::host::{self, Disk, FileError, Host};
 use crate::limits::Limits;
+use crate::model::environment::is_setting;
 use crate::model::{Event, Outcome, Session};
 use crate::syntax::Mode;
 
@@ -12,6 +14,7 @@ use super::arguments::Program;
 use super::console::Console;
 use super::engine::Signals;
 use super::status::Status;
+use super::text::near;
 
 /// A session that knows nothing yet.
 #[must_use]
@@ -38,13 +41,19 @@ pub fn name(file: &Path) -> String {
     if file == Path::new("-") { "<standard input>".into() } else { file.display().to_string() }
 }
 
-/// A session that has read `program`: its file, then its code, then its definitions of the command line.
+/// A session that has read `program`: its definitions of the command line, which win, then its file, then its code.
 ///
 /// # Errors
 /// The status of the first failure; its messages have been told.
 pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(Session, Vec<Event>), Status> {
     let mut session = fresh(signals);
     let mut events = Vec::new();
+    for assignment in &program.define {
+        let mut outcome = session.set(&assignment.name, &assignment.expression);
+        // What its expression reads is defined by the program that follows.
+        outcome.diagnostics.retain(Diagnostic::is_error);
+        finish(console, &session, outcome)?;
+    }
     if let Some(file) = &program.file {
         let text = read_text(file).map_err(|error| console.file_error(&error))?;
         events.extend(feed(console, &mut session, &name(file), &text)?);
@@ -52,11 +61,30 @@ pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(
     for code in &program.code {
         events.extend(feed(console, &mut session, "-e", code)?);
     }
-    for assignment in &program.define {
-        let outcome = session.set(&assignment.name, &assignment.expression);
-        finish(console, &session, outcome)?;
+    let unread: Vec<Diagnostic> = program.define.iter().filter_map(|define| unread(&session, &define.name)).collect();
+    match console.report(session.sources(), &unread) {
+        Status::Done => Ok((session, events)),
+        failed => Err(failed),
     }
-    Ok((session, events))
+}
+
+/// A warning for a definition of the command line that changes nothing: most likely its name is misspelt.
+fn unread(session: &Session, name: &str) -> Option<Diagnostic> {
+    let serves = name.starts_with("gob_") || is_system(name) || is_setting(name);
+    if serves || session.deps(name).is_some_and(|deps| !deps.readers.is_empty()) {
+        return None;
+    }
+    let names: Vec<String> = session.names().into_iter().filter(|other| other != name).collect();
+    let warning = Diagnostic::warning("unread-define", format!("-D {name}: nothing reads `{name}`"));
+    Some(match near(name, names.iter().map(String::as_str)) {
+        Some(other) => warning.help(format!("did you mean `{other}`?")),
+        None => warning,
+    })
+}
+
+/// The names that no definition needs to read: they choose the R-functions.
+fn is_system(name: &str) -> bool {
+    name == "r_alpha" || name == "r_m"
 }
 
 /// Like [`open`], with an error of usage when no program is named.

@@ -70,10 +70,11 @@ pub fn size(text: &str) -> Result<Size, String> {
     Ok(Size { width: positive(width)?, height: positive(height)? })
 }
 
-/// Reads `1,2,3`.
-pub fn triple(text: &str) -> Result<[f64; 3], String> {
-    let numbers = text.split(',').map(finite).collect::<Result<Vec<_>, _>>()?;
-    numbers.try_into().map_err(|_| "expected three numbers, as in 10,-20,8".into())
+/// Reads `35,24`: degrees around and above, the second from -90 to 90.
+pub fn angles(text: &str) -> Result<[f64; 2], String> {
+    let (around, above) = split(text, ',', "AROUND,ABOVE in degrees, as in 35,24")?;
+    let (around, above) = (finite(around)?, finite(above)?);
+    if above.abs() <= 90.0 { Ok([around, above]) } else { Err(format!("{above} is not from -90 to 90 degrees")) }
 }
 
 /// Reads a whole number from 1.
@@ -117,7 +118,7 @@ mod tests {
         assert_eq!(section("x4=.5"), Ok(Section { coordinate: 4, value: 0.5 }));
         assert_eq!(extent("x1=-2:2e1"), Ok(Extent { coordinate: 1, lo: -2.0, hi: 20.0 }));
         assert_eq!(size("3x4"), Ok(Size { width: 3, height: 4 }));
-        assert_eq!(triple("1,-2,3"), Ok([1.0, -2.0, 3.0]));
+        assert_eq!(angles("120,-30"), Ok([120.0, -30.0]));
     }
 
     #[test]
@@ -130,7 +131,7 @@ mod tests {
             (extent("x1=2:2").map(drop), "2 is not below 2"),
             (extent("x1=2").map(drop), "expected xN=LO:HI"),
             (size("0x4").map(drop), "at least 1"),
-            (triple("1,2").map(drop), "three numbers"),
+            (angles("1,91").map(drop), "-90 to 90"),
         ];
         for (result, words) in cases {
             let message = result.expect_err(words);

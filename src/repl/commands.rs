@@ -248,7 +248,7 @@ fn make_file(repl: &mut Repl, argument: &str, wanted: fn(Kind) -> bool, otherwis
         Err(words) => repl.refuse(&words),
         Ok(output) if !wanted(output.format.kind()) => repl.refuse(otherwise),
         Ok(output) => {
-            let made = make::make(&repl.console, &repl.signals, &mut repl.session, &making, &output);
+            let made = make::make(&repl.console, &mut repl.session, &making, &output);
             repl.ended(made)
         }
     }
@@ -259,7 +259,7 @@ fn measure(repl: &mut Repl, name: &str) -> Flow {
     if !name.is_empty() {
         making.subject.object = Some(name.to_owned());
     }
-    let made = cli::inspect::measure_one(&repl.console, &repl.signals, &mut repl.session, &making, false);
+    let made = cli::inspect::measure_one(&repl.console, &mut repl.session, &making, false);
     repl.ended(made)
 }
 
@@ -285,7 +285,7 @@ fn settings(making: &Making) -> String {
     say("cell", making.fineness.cell.map(|length| length.to_string()));
     say("size", making.look.size.map(|size| format!("{}x{}", size.width, size.height)));
     say("view", making.look.view.clone());
-    say("camera", making.look.camera.map(|[x, y, z]| format!("{x},{y},{z}")));
+    say("camera", making.look.camera.map(|[around, above]| format!("{around},{above}")));
     say("palette", making.look.palette.clone());
     say("supersample", making.look.supersample.map(|n| n.to_string()));
     say("frames", making.motion.frames.map(|n| n.to_string()));

@@ -82,7 +82,7 @@ pub fn partner(text: &str, at: usize) -> Option<usize> {
     let here = position(at).or_else(|| position(at.checked_sub(1)?))?;
     let forward = brackets[here].1;
     let mut depth = 0usize;
-    let mut closes = |(start, opens): &(usize, bool)| {
+    let closes = |(start, opens): &(usize, bool)| {
         depth = if *opens == forward { depth + 1 } else { depth.saturating_sub(1) };
         (depth == 0).then_some(*start)
     };

@@ -17,11 +17,13 @@ use crate::cli::arguments::Making;
 use crate::cli::console::Console;
 use crate::cli::engine::Signals;
 use crate::cli::run::tell;
+use crate::cli::sample::digits;
 use crate::cli::status::Status;
 use crate::host::{FileError, Reason, reason, state_folder};
 use crate::limits::Limits;
-use crate::model::Session;
+use crate::model::{Event, Session};
 use crate::syntax::Mode;
+use crate::syntax::scan::Scanner;
 
 use commands::Flow;
 use helper::{Assistant, is_incomplete};
@@ -37,6 +39,8 @@ pub struct Repl {
     memory: Memory,
     lost: Option<Lost>,
     inputs: usize,
+    /// The last value, as an expression: what `_` stands for.
+    last: Option<String>,
 }
 
 /// Runs the prompt until the user leaves, or, without a terminal, until the input ends.
@@ -44,7 +48,7 @@ pub fn start(prompt: Prompt) -> Status {
     let terminal = std::io::stdin().is_terminal();
     let memory = Memory::in_folder(if terminal { state_folder() } else { None });
     let Prompt { session, console, signals, making, .. } = prompt;
-    let mut repl = Repl { session, console, signals, making, memory, lost: None, inputs: 0 };
+    let repl = Repl { session, console, signals, making, memory, lost: None, inputs: 0, last: None };
     if terminal { repl.converse() } else { repl.listen() }
 }
 
@@ -168,7 +172,13 @@ impl Repl {
     }
 
     fn feed(&mut self, name: &str, text: &str, mode: Mode) -> Flow {
+        let text = &self.with_last(text);
         let outcome = self.session.input(name, text, mode);
+        if outcome.accepted
+            && let Some(Event::Value { text: shown, number }) = outcome.events.last()
+        {
+            self.last = Some(last_value(text, shown, *number));
+        }
         let status = self.console.report(self.session.sources(), &outcome.diagnostics);
         match tell(&self.console, &outcome.events, false) {
             Ok(_) if outcome.accepted => Flow::Changed,
@@ -176,6 +186,18 @@ impl Repl {
             Err(Status::Done) => Flow::Leave,
             Err(failed) => Flow::Failed(failed),
         }
+    }
+
+    /// The text with each `_` replaced by the last value.
+    fn with_last(&self, text: &str) -> String {
+        let Some(last) = &self.last else { return text.to_owned() };
+        let (mut result, mut end) = (String::new(), 0);
+        for token in Scanner::new(text, 0, text.len()).filter(|token| token.text(text) == "_") {
+            result += &text[end..token.start];
+            result += last;
+            end = token.end;
+        }
+        result + &text[end..]
     }
 
     fn names(&self) -> Vec<String> {
@@ -215,6 +237,16 @@ impl Repl {
             Err(Status::Done) => Flow::Leave,
             Ok(failed) | Err(failed) => Flow::Failed(failed),
         }
+    }
+}
+
+/// A value as an expression: a number by its digits, anything else by what was typed, which means the same again.
+fn last_value(typed: &str, shown: &str, number: Option<f64>) -> String {
+    let single = typed.trim().trim_end_matches(';');
+    match number {
+        Some(number) if number.is_finite() => format!("({})", digits(number)),
+        _ if single.contains(';') => format!("({shown})"),
+        _ => format!("({single})"),
     }
 }
 

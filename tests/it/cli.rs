@@ -316,7 +316,7 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ),
     ("cell", &["ball.geo", "-o", "-", "--format", "stl"], &["ball.geo", "-o", "-", "--format", "stl", "--cell", "0.7"]),
     ("size", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--size", "20x30"]),
-    ("camera", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--camera", "0,-1,0.1"]),
+    ("camera", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--camera", "120,-10"]),
     ("view", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--view", "top"]),
     (
         "palette",
