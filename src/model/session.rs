@@ -125,7 +125,8 @@ impl Session {
 
     /// `-D NAME=EXPR`: gives a name another definition, also in scripts that are still to come.
     pub fn set(&mut self, name: &str, expression: &str) -> Outcome {
-        let known = self.state.get(name).is_some() || self.state.readers(name).next().is_some() || self.undo.is_empty();
+        let first = self.undo.iter().all(|done| done.title.starts_with("-D "));
+        let known = first || self.state.get(name).is_some() || self.state.readers(name).next().is_some();
         let id = self.sources.add(format!("-D {name}"), format!("{name} = {expression};"));
         if !known {
             let span = crate::source::Span::new(id, 0, name.len());
