@@ -1,1 +1,3 @@
 //! Pictures of functions: cameras, ray casting, plots, palettes, animations. Knows no language and no files.
+
+pub mod image;

@@ -9,6 +9,7 @@ mod diagnostics;
 mod examples;
 mod export;
 mod field;
+mod formats;
 mod hostile;
 mod interrupts;
 mod language;
