@@ -2,5 +2,6 @@
 
 pub mod axes;
 pub mod canvas;
+pub mod graph;
 pub mod image;
 pub mod text;

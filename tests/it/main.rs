@@ -20,6 +20,7 @@ mod number;
 mod oracle;
 mod parser;
 mod picture;
+mod plots;
 mod propagation;
 mod prospero;
 mod repl;
