@@ -141,8 +141,8 @@ impl Look {
     /// The sizes for a picture of so many pixels.
     #[must_use]
     pub fn of(width: usize, height: usize) -> Self {
-        let text = (width.min(height).min(LARGEST) as f32 / 34.).clamp(9., 64.);
-        Look { text, thin: (text / 13.).round().max(1.), thick: text / 6.5 }
+        let text = (width.min(height).min(LARGEST) as f32 / 36.).clamp(9., 64.);
+        Look { text, thin: (text / 13.).round().max(1.), thick: text / 6.8 }
     }
 
     /// Lettering of this size in ink.

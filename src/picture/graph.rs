@@ -27,6 +27,8 @@ pub struct Curve {
     pub pole: bool,
     /// Whether it is undefined somewhere.
     pub undefined: bool,
+    /// The values worth showing: all samples, or the quiet ones where there is a pole. Both 0 if there is no value.
+    pub values: [f64; 2],
 }
 
 /// Follows a function from `lo` to `hi` by `count` samples at equal distances. Jumps, poles, ends of definition and roots between
@@ -47,7 +49,18 @@ pub fn follow(lo: f64, hi: f64, count: usize, f: &mut Function) -> Curve {
     let changes = find_changes(&samples, extent, f);
     let mut curve = assemble(&samples, &changes);
     curve.pole |= changes.iter().any(|(_, change)| change.grows) || grows_at_extremes(&samples, f);
+    curve.values = quiet(&samples, curve.pole);
     curve
+}
+
+/// The range of all samples, or of nine in ten about their middle where the rest rushes off to a pole. Points found between samples
+/// do not count: a logarithm's last ones would leave no room for the others.
+fn quiet(samples: &[[f64; 2]], pole: bool) -> [f64; 2] {
+    let mut values: Vec<f64> = samples.iter().map(|p| p[1]).filter(|y| !y.is_nan()).collect();
+    values.sort_by(f64::total_cmp);
+    let Some(last) = values.len().checked_sub(1) else { return [0., 0.] };
+    let at = |part: f64| values[(part * last as f64).round() as usize];
+    if pole { [at(0.05), at(0.95)] } else { [at(0.), at(1.)] }
 }
 
 /// Infinities are drawn as the largest numbers: beyond every plot, and still of their sign.
@@ -256,17 +269,13 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The range of values to show: the curve's, or its quiet part where it has poles, always with 0.
+    /// The range of values to show: what was asked for, or the curve's with 0 and a little room.
     #[must_use]
     pub fn value_range(&self) -> [f64; 2] {
         if let Some(range) = self.range {
             return range;
         }
-        let mut values: Vec<f64> = self.curve.runs.iter().flatten().map(|p| p[1]).collect();
-        values.sort_by(f64::total_cmp);
-        let Some(last) = values.len().checked_sub(1) else { return [-1., 1.] };
-        let at = |part: f64| values[(part * last as f64).round() as usize];
-        let (lo, hi) = if self.curve.pole { (at(0.06) * 1.2, at(0.94) * 1.2) } else { (values[0], values[last]) };
+        let [lo, hi] = self.curve.values;
         let (lo, hi) = (lo.min(0.), hi.max(0.));
         let room = if hi > lo { 0.06 * (hi - lo) } else { 1. };
         [lo - room, hi + room]
@@ -278,8 +287,8 @@ impl Graph {
 pub fn stack(graphs: &[Graph], x: &Axis, width: usize, height: usize) -> Option<Image> {
     let last = graphs.len().checked_sub(1)?;
     let mut canvas = Canvas::new(width, height, PAPER)?;
-    let share = height as f32 / graphs.len() as f32;
-    let look = Look::of(width, (share * 1.6) as usize);
+    let mut look = Look::of(width, height);
+    look.text = look.text.min(height as f32 / graphs.len() as f32 / 17.).max(8.);
     // The lowest also carries the numbers; what they need is taken from all alike.
     let below = look.text * 3.2;
     let each = (height as f32 - below) / graphs.len() as f32;
