@@ -1,7 +1,14 @@
 //! One file per format; each takes a writer and never seeks.
 
 pub mod apng;
+pub mod gif;
 pub mod glb;
+pub mod nrrd;
+pub mod obj;
+pub mod ply;
+pub mod png;
+pub mod quantise;
+pub mod stl;
 pub mod svg;
 pub mod threemf;
 

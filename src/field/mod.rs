@@ -1,5 +1,11 @@
 //! Functions of n coordinates as expression graphs: built, simplified, differentiated, analysed. Knows neither language nor files.
 
+pub mod build;
+pub mod derivative;
+pub mod expand;
+pub mod facts;
 pub mod graph;
 
+pub use derivative::derivative;
+pub use facts::operations;
 pub use graph::{Coordinate, Coordinates, Graph, Node, NodeId, SharedLeaf};

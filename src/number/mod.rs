@@ -1,12 +1,20 @@
 //! Numbers of all kinds: reals, intervals rounded outward, duals, blocks of points. One meaning, many numbers.
 
+pub mod dual;
+pub mod float;
+pub mod functions;
 pub mod interval;
 pub mod leaf;
 pub mod op;
+pub mod real;
+pub mod rfunction;
 
-pub use interval::Interval;
+pub use dual::{Dual, Duals};
+pub use float::Float;
+pub use interval::{Interval, Intervals};
 pub use leaf::Leaf;
 pub use op::{Binary, Real, Ternary, Unary};
+pub use real::Reals;
 
 /// What a kind of number (or a builder of expressions) must be able to do for a built-in to be written once over it.
 ///

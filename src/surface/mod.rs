@@ -1,3 +1,25 @@
 //! Boundaries of functions: the box hierarchy, marching cubes, checks, measures. Knows no language and no files.
+//!
+//! The way of a mesh: [`grid`] says where the sample points lie, [`boxes`] finds the undecided leaves among them, [`brick`] evaluates a leaf
+//! and finds a vertex on each crossed edge ([`roots`]), [`marching`] joins the vertices to triangles ([`table`]), [`cap`] closes the object
+//! at the faces of the modelling space. [`check`] proves the mesh closed, [`measure`] integrates over it, [`contour`] does the same for
+//! 2-D shapes.
 
+pub mod boxes;
+pub mod brick;
+pub mod cap;
+pub mod check;
+pub mod contour;
+pub mod grid;
+pub mod marching;
+pub mod measure;
 pub mod mesh;
+pub mod roots;
+pub mod sampler;
+pub mod table;
+
+pub use check::{Fault, Topology, check};
+pub use grid::{Grid, GridError};
+pub use marching::{Extraction, Report, SurfaceError, extract};
+pub use measure::{Measures, measure};
+pub use mesh::Mesh;

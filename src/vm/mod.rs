@@ -1,1 +1,20 @@
-//! Compiled programs: closures over blocks of points, intervals, gradients, and the slow reference.
+//! Expressions compiled to flat programs, and what evaluates them: blocks of points, gradients, intervals of boxes. Knows neither
+//! language nor files.
+
+pub mod block;
+pub mod compile;
+pub mod gradient;
+pub mod interval;
+mod kernels;
+pub mod program;
+pub mod reference;
+pub mod shape;
+mod slots;
+pub mod specialise;
+
+pub use block::Points;
+pub use compile::CompileError;
+pub use gradient::Gradients;
+pub use interval::Boxes;
+pub use program::{Demand, Program};
+pub use shape::Shape;

@@ -1,1 +1,243 @@
-//! Every evaluator agrees: reference, double and single blocks, gradients, intervals.
+//! One suite for every evaluator: compiled programs, in every form, against the slow walk over the graph. Random expressions from a
+//! seeded generator of its own, so that every run is the same.
+
+use yont::field::expand::{expand, reachable};
+use yont::field::{Coordinate, Graph, NodeId};
+use yont::limits::Limits;
+use yont::number::{Algebra, Binary, Dual, Duals, Interval, Intervals, Reals, Ternary, Unary};
+use yont::vm::{Boxes, Demand, Gradients, Points, Program, reference};
+
+/// A small generator of random numbers (splitmix64).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+    pub fn between(&mut self, lo: f64, hi: f64) -> f64 {
+        lo + (hi - lo) * ((self.next() >> 11) as f64 / (1u64 << 53) as f64)
+    }
+    fn pick<T: Copy>(&mut self, of: &[T]) -> T {
+        of[self.below(of.len())]
+    }
+}
+
+const UNARY: &[Unary] = &[
+    Unary::Neg,
+    Unary::Abs,
+    Unary::Sqrt,
+    Unary::Cbrt,
+    Unary::Exp,
+    Unary::Log,
+    Unary::Log10,
+    Unary::Sin,
+    Unary::Cos,
+    Unary::Tan,
+    Unary::Asin,
+    Unary::Acos,
+    Unary::Atan,
+    Unary::Sinh,
+    Unary::Cosh,
+    Unary::Tanh,
+    Unary::Asinh,
+    Unary::Atanh,
+    Unary::Floor,
+    Unary::Ceil,
+    Unary::Round,
+    Unary::Sign,
+    Unary::Not,
+    Unary::Powi(2),
+    Unary::Powi(3),
+    Unary::Powi(-1),
+    Unary::Powi(-2),
+    Unary::Powi(7),
+    Unary::Powi(0),
+];
+const BINARY: &[Binary] = &[
+    Binary::Add,
+    Binary::Sub,
+    Binary::Mul,
+    Binary::Div,
+    Binary::Min,
+    Binary::Max,
+    Binary::Pow,
+    Binary::Atan2,
+    Binary::Hypot,
+    Binary::Mod,
+    Binary::Less,
+    Binary::LessEqual,
+    Binary::Equal,
+    Binary::NotEqual,
+    Binary::And,
+    Binary::Or,
+];
+const TERNARY: &[Ternary] =
+    &[Ternary::Select, Ternary::Union, Ternary::Intersection, Ternary::UnionSmooth, Ternary::IntersectionSmooth];
+const NUMBERS: &[f64] = &[0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 3.0, -0.25, 1e-9, 7.5, f64::NAN];
+const INPUTS: [Coordinate; 3] = [Coordinate(1), Coordinate(2), Coordinate(3)];
+
+/// A random expression of x1, x2, x3 with shared parts, conditions and maps; what comes last is the root.
+fn expression(random: &mut Random, graph: &mut Graph, size: usize) -> NodeId {
+    let mut nodes: Vec<NodeId> = INPUTS.iter().map(|c| graph.coordinate(*c)).collect();
+    for _ in 0..size {
+        // The newest nodes are taken more often, so that the expression is deep as well as shared.
+        let mut operand = |random: &mut Random, graph: &mut Graph| match random.below(8) {
+            0 => graph.constant(random.pick(NUMBERS)),
+            1 | 2 => nodes[random.below(nodes.len())],
+            _ => nodes[nodes.len() - 1 - random.below(nodes.len().min(4))],
+        };
+        let (a, b, c) = (operand(random, graph), operand(random, graph), operand(random, graph));
+        let made = match random.below(16) {
+            0..=3 => graph.unary(random.pick(UNARY), a),
+            4..=6 => graph.binary(random.pick(BINARY), a, b),
+            7..=9 => graph.binary(random.pick(&[Binary::Min, Binary::Max, Binary::Add, Binary::Sub]), a, b),
+            10 | 11 => graph.unary(Unary::Neg, a),
+            12 => graph.ternary(Ternary::Select, a, b, c),
+            13 | 14 => {
+                let smooth = random.below(4) == 0;
+                let numbers = if smooth { &[0.0, 1.0, 2.0] } else { &[0.0, 0.5, 1.0] };
+                let parameter = graph.constant(random.pick(numbers));
+                let parameter = if random.below(8) == 0 && !smooth { c } else { parameter };
+                graph.ternary(random.pick(if smooth { &TERNARY[3..] } else { &TERNARY[1..3] }), a, b, parameter)
+            }
+            _ => graph.map(a, &[(random.pick(&INPUTS), b), (random.pick(&INPUTS), c)]),
+        };
+        nodes.push(made);
+    }
+    *nodes.last().expect("there are always coordinates")
+}
+
+fn compile(graph: &Graph, root: NodeId, demand: Demand) -> Program {
+    Program::compile(graph, root, &INPUTS, demand, &Limits::default()).expect("small and of three coordinates")
+}
+
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
+}
+
+fn walk(graph: &Graph, root: NodeId, at: [f64; 3]) -> f64 {
+    reference::eval(&mut Reals, graph, root, &INPUTS.map(|c| (c, at[usize::from(c.0) - 1])))
+}
+
+fn boxes(random: &mut Random, count: usize) -> [Vec<Interval>; 3] {
+    std::array::from_fn(|_| {
+        let one = |_| {
+            let centre = random.between(-3.0, 3.0);
+            let size = random.pick(&[0.0, 0.01, 0.3, 2.0]);
+            Interval::new(centre - size, centre + size)
+        };
+        (0..count).map(one).collect()
+    })
+}
+
+/// Points of one box, its corners among them.
+fn points_in(random: &mut Random, over: [Interval; 3], count: usize) -> [Vec<f64>; 3] {
+    over.map(|i| {
+        let one = |k: usize| match (k, random.below(6)) {
+            (_, 0) => i.lo,
+            (_, 1) => i.hi,
+            _ => random.between(i.lo, i.hi).clamp(i.lo, i.hi),
+        };
+        (0..count).map(one).collect()
+    })
+}
+
+/// The first operation whose interval does not hold its value, for the message of a failed test.
+fn blame(graph: &Graph, root: NodeId, at: [f64; 3], over: [Interval; 3]) -> String {
+    let expanded = expand(graph, root, 10_000).expect("small");
+    let (graph, root) = expanded.as_ref().map_or((graph, root), |(g, r)| (g, *r));
+    let range =
+        |node: NodeId| reference::eval(&mut Intervals, graph, node, &INPUTS.map(|c| (c, over[usize::from(c.0) - 1])));
+    let reached = reachable(graph, root);
+    for node in (0..=root.index()).filter(|i| reached[*i]).map(|i| NodeId(i as u32)) {
+        if !range(node).contains(walk(graph, node, at)) {
+            let mut told = format!("{:?} is {:e}, not in {:?};", graph.node(node), walk(graph, node, at), range(node));
+            graph.node(node).for_each_operand(|e| told += &format!(" {:e} in {:?}", walk(graph, e, at), range(e)));
+            return told;
+        }
+    }
+    "the intervals of the walk hold all values".into()
+}
+
+fn values(program: &Program, points: &[Vec<f64>; 3]) -> Vec<f64> {
+    let mut out = vec![0.0; points[0].len()];
+    Points::<f64>::new().eval(program, &[&points[0], &points[1], &points[2]], &mut out);
+    out
+}
+
+#[test]
+fn compiled_values_equal_the_walk_to_the_bit() {
+    let mut random = Random(1);
+    let mut evaluator = Points::<f64>::new();
+    for case in 0..20_000 {
+        let mut graph = Graph::new();
+        let size = 1 + random.below(30);
+        let root = expression(&mut random, &mut graph, size);
+        let program = compile(&graph, root, Demand::Value);
+        let points: [Vec<f64>; 3] = std::array::from_fn(|_| (0..3).map(|_| random.between(-3.0, 3.0)).collect());
+        let mut out = [0.0; 3];
+        evaluator.eval(&program, &[&points[0], &points[1], &points[2]], &mut out);
+        for (k, value) in out.iter().enumerate() {
+            let expected = walk(&graph, root, [points[0][k], points[1][k], points[2][k]]);
+            assert!(same(*value, expected), "case {case}: {value:e} instead of {expected:e} for {program:?}");
+        }
+    }
+}
+
+#[test]
+fn intervals_hold_the_values_and_specialised_programs_give_them() {
+    let mut random = Random(2);
+    let (mut evaluator, mut lanes) = (Boxes::new(), vec![Interval::EMPTY; 8]);
+    let mut shorter = [0, 0];
+    for case in 0..100_000 {
+        let mut graph = Graph::new();
+        let size = 1 + random.below(30);
+        let root = expression(&mut random, &mut graph, size);
+        let over = boxes(&mut random, lanes.len());
+        for demand in [Demand::Value, Demand::Sign] {
+            let program = compile(&graph, root, demand);
+            evaluator.eval(&program, &[&over[0], &over[1], &over[2]], &mut lanes);
+            for (lane, range) in lanes.iter().enumerate() {
+                let points = points_in(&mut random, [over[0][lane], over[1][lane], over[2][lane]], 5);
+                let expected: Vec<f64> =
+                    (0..5).map(|k| walk(&graph, root, [points[0][k], points[1][k], points[2][k]])).collect();
+                let special = evaluator.specialise(&program, lane);
+                shorter[usize::from(demand == Demand::Sign)] += usize::from(special.is_some());
+                for used in [Some(&program), special.as_ref()].into_iter().flatten() {
+                    for (k, (value, expected)) in values(used, &points).into_iter().zip(&expected).enumerate() {
+                        match demand {
+                            Demand::Value => {
+                                assert!(same(value, *expected), "case {case}: {value:e}, {expected:e}\n{used:?}");
+                                assert!(
+                                    range.contains(value),
+                                    "case {case}: {value:e} not in {range:?}: {}",
+                                    blame(
+                                        &graph,
+                                        root,
+                                        [points[0][k], points[1][k], points[2][k]],
+                                        [over[0][lane], over[1][lane], over[2][lane]]
+                                    )
+                                );
+                            }
+                            Demand::Sign => {
+                                assert_eq!(
+                                    value >= 0.0,
+                                    *expected >= 0.0,
+                                    "case {case}: {value:e}, {expected:e}\n{used:?}\n{program:?}"
+                                );
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(shorter[0] > 1_000 && shorter[1] > shorter[0], "specialising does something: {shorter:?}");
+}

@@ -1,0 +1,155 @@
+//! The special forms: folds over an index, arrays, vectors, derivatives, projections and data. Their arguments are more than
+//! numbers, so the interpreter evaluates them; here they are only described.
+
+use super::table::{Builtin, Meaning, Special, Subject};
+
+/// The file that the example of INTERPOLATE reads: its name and its content, two samples 0 and 1 at 0 and 1.
+pub const RAMP: (&str, &str) =
+    ("ramp.nrrd", "NRRD0004\ntype: float\ndimension: 1\nsizes: 2\nspacings: 1\nencoding: ascii\n\n0 1\n");
+
+const fn entry(
+    form: Special,
+    subject: Subject,
+    name: &'static str,
+    parameters: &'static [&'static str],
+    doc: &'static str,
+    example: (&'static str, f64),
+) -> Builtin {
+    Builtin { name, aliases: &[], subject, parameters, doc, example, meaning: Meaning::Special(form) }
+}
+
+use Subject::{Arrays, Data, Functions};
+
+/// The special forms.
+pub(super) static TABLE: &[Builtin] = &[
+    entry(
+        Special::Sum,
+        Arrays,
+        "SUM",
+        &["i = first TO last", "e"],
+        "The sum of e over the index, or of one array: SUM(a). Without terms 0. Added from left to right.",
+        ("SUM(i = 1 TO 4, i**2)", 30.0),
+    ),
+    entry(
+        Special::Product,
+        Arrays,
+        "PRODUCT",
+        &["i = first TO last", "e"],
+        "The product of e over the index, or of one array: PRODUCT(a). Without factors 1.",
+        ("PRODUCT(i = 1 TO 5, i)", 120.0),
+    ),
+    entry(
+        Special::Union,
+        Arrays,
+        "UNION",
+        &["i = first TO last", "e"],
+        "The R-union (|) of e over the index, or of one array, from left to right, with the system in force.",
+        ("UNION([3, 4])", 12.0),
+    ),
+    entry(
+        Special::Intersection,
+        Arrays,
+        "INTERSECTION",
+        &["i = first TO last", "e"],
+        "The R-intersection (&) of e over the index, or of one array, from left to right, with the system in force.",
+        ("INTERSECTION([3, 4])", 2.0),
+    ),
+    entry(
+        Special::Minimum,
+        Arrays,
+        "MINIMUM",
+        &["i = first TO last", "e"],
+        "The smallest e over the index, or element of one array; undefined if one is.",
+        ("MINIMUM(i = 1 TO 3, (i - 2)**2)", 0.0),
+    ),
+    entry(
+        Special::Maximum,
+        Arrays,
+        "MAXIMUM",
+        &["i = first TO last", "e"],
+        "The largest e over the index, or element of one array; undefined ones do not count.",
+        ("MAXIMUM(i = 1 TO 3, i*(3 - i))", 2.0),
+    ),
+    entry(
+        Special::Array,
+        Arrays,
+        "ARRAY",
+        &["i = first TO last", "e"],
+        "The array of the values of e over the index.",
+        ("ARRAY(i = 1 TO 3, 10*i)[2]", 20.0),
+    ),
+    entry(
+        Special::Join,
+        Arrays,
+        "JOIN",
+        &["a", "b", "..."],
+        "One array with the elements of a, then those of b, and so on.",
+        ("JOIN([1, 2], [3])[3]", 3.0),
+    ),
+    entry(Special::Len, Arrays, "LEN", &["a"], "The number of elements of an array.", ("LEN([5, 6, 7])", 3.0)),
+    entry(
+        Special::Dot,
+        Arrays,
+        "DOT",
+        &["a", "b"],
+        "The scalar product of two vectors of one length.",
+        ("DOT([1, 2, 3], [4, 5, 6])", 32.0),
+    ),
+    entry(
+        Special::Cross,
+        Arrays,
+        "CROSS",
+        &["a", "b"],
+        "The vector product of two vectors of length 3.",
+        ("CROSS([1, 0, 0], [0, 1, 0])[3]", 1.0),
+    ),
+    entry(Special::Norm, Arrays, "NORM", &["a"], "The Euclidean length of a vector.", ("NORM([2, 3, 6])", 7.0)),
+    entry(
+        Special::Random,
+        Arrays,
+        "RANDOM",
+        &["seed", "i"],
+        "The number i of the random sequence `seed`, from 0 to below 1: the same one every time.",
+        ("RANDOM(1, 5) = RANDOM(1, 5)", 1.0),
+    ),
+    entry(
+        Special::Diff,
+        Functions,
+        "DIFF",
+        &["e", "v"],
+        "The exact derivative of e by a coordinate or a parameter. IF, MIN, MAX, ABS: that of the taken branch.",
+        ("DIFF(x1**3, x1) AT (x1 = 2)", 12.0),
+    ),
+    entry(
+        Special::Grad,
+        Functions,
+        "GRAD",
+        &["e"],
+        "The gradient: the array of the derivatives of e by x1, x2, ... up to the highest coordinate that it uses.",
+        ("(GRAD(x1*x2) AT (x1 = 2, x2 = 7))[1]", 7.0),
+    ),
+    entry(
+        Special::Project,
+        Functions,
+        "PROJECT",
+        &["e", "x", "lo", "hi"],
+        "The maximum of e over the coordinate x in [lo, hi]: the union of its sections.",
+        ("PROJECT(1 - (x4 - 3)**2, x4, 0, 2)", 0.0),
+    ),
+    entry(
+        Special::OffsetBall,
+        Functions,
+        "OFFSET_BALL",
+        &["e", "d"],
+        "The maximum (d > 0) or minimum (d < 0) of e over the closed ball of radius |d| about the point: a constant-radius offset.",
+        ("OFFSET_BALL(1 - x1, 0.5) AT (x1 = 0)", 1.5),
+    ),
+    entry(
+        Special::Interpolate,
+        Data,
+        "INTERPOLATE",
+        &["kind", "file", "e1", "..."],
+        "A volume's value at the world coordinates e1, e2, e3: \"nearest\", \"trilinear\" or \"tricubic\", of a 1-D to 3-D grid in a file.",
+        ("INTERPOLATE(\"trilinear\", \"ramp.nrrd\", 0.25)", 0.25),
+    ),
+];

@@ -1,0 +1,336 @@
+//! The hierarchy of boxes: intervals decide which boxes of sample points are wholly inside or outside, shorter programs go down into the
+//! undecided ones, and only the undecided leaves are handed to a visitor. Knows neither meshes nor pixels, and never evaluates a point.
+//!
+//! A [`Lattice`] says where the sample points lie: an axis-aligned grid, the pixels of a plane, or pixels x depth of a camera. A [`walk`]
+//! has two phases. From the whole lattice down to tasks ([`Lattice::task`]) all boxes of a level are examined in parallel; then the tasks
+//! run in parallel, each with a [`Visitor`] of its own, depth first, so that a visitor sees its boxes in a fixed order: axis 2 slowest,
+//! axis 0 fastest at every level (front to back where axis 2 is depth). What the visitors gathered comes back in a fixed order too: the
+//! same for any number of threads.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::sampler::{Counters, Sampler};
+use crate::interrupt::{Cancelled, Interrupt};
+use crate::number::Interval;
+use crate::vm::interval::Boxes;
+use crate::vm::{Program, Shape};
+
+/// Most boxes that one split gives: 4 along each of three axes.
+pub const LANES: usize = 64;
+
+/// A box of sample points by their indices: `from <= i < to` on each axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// First index on each axis.
+    pub from: [usize; 3],
+    /// One past the last index on each axis.
+    pub to: [usize; 3],
+}
+
+impl Block {
+    /// Sample points along each axis.
+    #[must_use]
+    pub fn counts(&self) -> [usize; 3] {
+        std::array::from_fn(|d| self.to[d] - self.from[d])
+    }
+
+    /// Sample points in all.
+    #[must_use]
+    pub fn points(&self) -> u64 {
+        self.counts().iter().map(|&n| n as u64).product()
+    }
+
+    /// Whether no side is longer than that of `other`.
+    fn fits(&self, other: [usize; 3]) -> bool {
+        self.counts().iter().zip(other).all(|(&n, m)| n <= m)
+    }
+}
+
+/// Where sample points lie, as far as the hierarchy needs it.
+pub trait Lattice: Sync {
+    /// Sample points along each index axis, at least 1; a plane has 1 along axis 2.
+    fn counts(&self) -> [usize; 3];
+
+    /// Points along each axis of a leaf, the smallest box: about 512 points, 8 x 8 x 8 or 16 x 16 x 1.
+    fn leaf(&self) -> [usize; 3];
+
+    /// Points along each axis of a task, the piece that one thread descends with one visitor: `leaf` times a power of 4, or
+    /// `counts` where the axis must not be cut between tasks (the depth of a camera).
+    fn task(&self) -> [usize; 3];
+
+    /// Writes bounds of each coordinate of the space (`Shape::dimension` of them) over `block`. They must hold every point that the
+    /// visitor will evaluate for that block, as it is computed in floating point.
+    fn bounds(&self, block: &Block, out: &mut [Interval]);
+}
+
+/// What is done with the boxes of one task.
+pub trait Visitor: Send {
+    /// Whether anything in the block is still of interest; asked right before a box is split and before a leaf is visited.
+    fn wants(&mut self, _block: &Block) -> bool {
+        true
+    }
+
+    /// All points of the block are inside (`f >= 0`) or all are outside (`f < 0` or undefined), its bounds included.
+    fn uniform(&mut self, block: &Block, inside: bool);
+
+    /// An undecided leaf, with the program that is right inside its bounds (as good as the shape's own there, perhaps shorter).
+    fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler);
+
+    /// The task is done: a visitor may turn what it gathered into something smaller.
+    fn finish(&mut self, _sampler: &mut Sampler) {}
+}
+
+/// What a walk brings back.
+#[derive(Debug)]
+pub struct Walk<V> {
+    /// The visitors: of tasks, and of boxes decided above the tasks, which saw just one call of [`Visitor::uniform`]. In a fixed order.
+    pub visitors: Vec<V>,
+    /// What it cost.
+    pub counters: Counters,
+}
+
+/// Walks the whole lattice. `visitor` makes the visitor of a task (or of a decided box) from its block. Runs on the current rayon pool;
+/// progress counts sample points.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+pub fn walk<L, V, F>(lattice: &L, shape: &Shape, visitor: F, interrupt: &Interrupt) -> Result<Walk<V>, Cancelled>
+where
+    L: Lattice,
+    V: Visitor,
+    F: Fn(&Block) -> V + Sync,
+{
+    let whole = Block { from: [0; 3], to: lattice.counts() };
+    interrupt.begin(whole.points());
+    let mut counters = Counters::default();
+    let tasks = gather_tasks(lattice, shape, whole, &mut counters, interrupt)?;
+    let done: Vec<(V, Counters)> = tasks
+        .into_par_iter()
+        .map_init(
+            || Walker::new(lattice, shape, interrupt),
+            |walker, task| {
+                let (block, mut own) = (task.block, visitor(&task.block));
+                match task.state {
+                    State::Decided(inside) => walker.decide(&mut own, &block, inside),
+                    State::Open(program) => walker.descend(0, &block, &program, &mut own)?,
+                }
+                own.finish(&mut walker.sampler);
+                Ok((own, walker.take_counters()))
+            },
+        )
+        .collect::<Result<_, Cancelled>>()?;
+    let mut visitors = Vec::with_capacity(done.len());
+    for (own, cost) in done {
+        visitors.push(own);
+        counters.add(cost);
+    }
+    Ok(Walk { visitors, counters })
+}
+
+/// A box of the upper phase.
+struct Piece {
+    block: Block,
+    state: State,
+}
+
+enum State {
+    Open(Arc<Program>),
+    Decided(bool),
+}
+
+/// Splits the whole lattice, level by level, into tasks and boxes that are decided already.
+fn gather_tasks<L: Lattice>(
+    lattice: &L,
+    shape: &Shape,
+    whole: Block,
+    counters: &mut Counters,
+    interrupt: &Interrupt,
+) -> Result<Vec<Piece>, Cancelled> {
+    let task = lattice.task();
+    let is_open = |piece: &Piece| matches!(piece.state, State::Open(_)) && !piece.block.fits(task);
+    let mut pieces = vec![Piece { block: whole, state: State::Open(Arc::clone(&shape.program)) }];
+    while pieces.iter().any(is_open) {
+        let level: Vec<(Vec<Piece>, u64)> = pieces
+            .into_par_iter()
+            .map_init(
+                || Level::new(shape),
+                |level, piece| {
+                    interrupt.tick()?;
+                    match &piece.state {
+                        State::Open(program) if !piece.block.fits(task) => {
+                            Ok((level.pieces(lattice, program, &piece.block), level.children.len() as u64))
+                        }
+                        _ => Ok((vec![piece], 0)),
+                    }
+                },
+            )
+            .collect::<Result<_, Cancelled>>()?;
+        counters.boxes += level.iter().map(|(_, boxes)| boxes).sum::<u64>();
+        pieces = level.into_iter().flat_map(|(pieces, _)| pieces).collect();
+    }
+    Ok(pieces)
+}
+
+/// One thread's way down: a level of scratch for each depth.
+struct Walker<'a, L> {
+    lattice: &'a L,
+    shape: &'a Shape,
+    interrupt: &'a Interrupt,
+    levels: Vec<Option<Box<Level>>>,
+    sampler: Sampler,
+    boxes: u64,
+}
+
+impl<'a, L: Lattice> Walker<'a, L> {
+    fn new(lattice: &'a L, shape: &'a Shape, interrupt: &'a Interrupt) -> Self {
+        Self { lattice, shape, interrupt, levels: Vec::new(), sampler: Sampler::new(shape), boxes: 0 }
+    }
+
+    fn take_counters(&mut self) -> Counters {
+        let mut counters = self.sampler.take_counters();
+        counters.boxes = std::mem::take(&mut self.boxes);
+        counters
+    }
+
+    fn decide<V: Visitor>(&mut self, visitor: &mut V, block: &Block, inside: bool) {
+        visitor.uniform(block, inside);
+        self.interrupt.advance(block.points());
+    }
+
+    /// Splits down to the leaves; as deep as the lattice is long to base 4, so the recursion is short.
+    fn descend<V: Visitor>(
+        &mut self,
+        depth: usize,
+        block: &Block,
+        program: &Program,
+        visitor: &mut V,
+    ) -> Result<(), Cancelled> {
+        self.interrupt.tick()?;
+        let is_leaf = block.fits(self.lattice.leaf());
+        if is_leaf || !visitor.wants(block) {
+            if is_leaf && visitor.wants(block) {
+                visitor.leaf(block, program, &mut self.sampler);
+            }
+            self.interrupt.advance(block.points());
+            return Ok(());
+        }
+        if self.levels.len() <= depth {
+            self.levels.resize_with(depth + 1, || None);
+        }
+        let mut level = self.levels[depth].take().unwrap_or_else(|| Box::new(Level::new(self.shape)));
+        level.examine(self.lattice, program, block, self.lattice.leaf());
+        self.boxes += level.children.len() as u64;
+        for lane in 0..level.children.len() {
+            let child = level.children[lane];
+            if let Some(inside) = verdict(level.values[lane]) {
+                self.decide(visitor, &child, inside);
+            } else if visitor.wants(&child) {
+                let shorter = level.boxes.specialise(program, lane);
+                self.descend(depth + 1, &child, shorter.as_ref().unwrap_or(program), visitor)?;
+            } else {
+                self.interrupt.advance(child.points());
+            }
+        }
+        self.levels[depth] = Some(level);
+        Ok(())
+    }
+}
+
+/// Whether the values decide a box: inside, outside, or (None) neither.
+fn verdict(value: Interval) -> Option<bool> {
+    if value.lo > value.hi || value.hi < 0.0 {
+        Some(false)
+    } else if value.lo >= 0.0 && !value.undefined {
+        Some(true)
+    } else {
+        None
+    }
+}
+
+/// Scratch for the split of one box: its children, their coordinates' bounds by input, and the values' bounds.
+struct Level {
+    children: Vec<Block>,
+    inputs: Vec<[Interval; LANES]>,
+    coordinates: Vec<Interval>,
+    values: [Interval; LANES],
+    boxes: Boxes,
+}
+
+impl Level {
+    fn new(shape: &Shape) -> Self {
+        let nothing = Interval::new(0.0, 0.0);
+        let mut inputs = vec![[nothing; LANES]; shape.dimension];
+        inputs.extend(shape.fixed.iter().map(|&value| [fixed(value); LANES]));
+        Self {
+            children: Vec::with_capacity(LANES),
+            inputs,
+            coordinates: vec![nothing; shape.dimension],
+            values: [nothing; LANES],
+            boxes: Boxes::new(),
+        }
+    }
+
+    /// Splits `block` and bounds the program's values over each child.
+    fn examine<L: Lattice>(&mut self, lattice: &L, program: &Program, block: &Block, floor: [usize; 3]) {
+        split(block, lattice.leaf(), floor, &mut self.children);
+        for (lane, child) in self.children.iter().enumerate() {
+            lattice.bounds(child, &mut self.coordinates);
+            for (input, &bounds) in self.inputs.iter_mut().zip(&self.coordinates) {
+                input[lane] = bounds;
+            }
+        }
+        let count = self.children.len();
+        let mut slices: [&[Interval]; 16] = [&[]; 16];
+        for (slice, input) in slices.iter_mut().zip(&self.inputs) {
+            *slice = &input[..count];
+        }
+        self.boxes.eval(program, &slices[..self.inputs.len()], &mut self.values[..count]);
+    }
+
+    fn pieces<L: Lattice>(&mut self, lattice: &L, program: &Arc<Program>, block: &Block) -> Vec<Piece> {
+        self.examine(lattice, program, block, lattice.task());
+        let state = |boxes: &mut Boxes, lane: usize, value| match verdict(value) {
+            Some(inside) => State::Decided(inside),
+            None => State::Open(boxes.specialise(program, lane).map_or_else(|| Arc::clone(program), Arc::new)),
+        };
+        let (boxes, values) = (&mut self.boxes, &self.values);
+        let children = self.children.iter().enumerate();
+        children.map(|(lane, &block)| Piece { block, state: state(boxes, lane, values[lane]) }).collect()
+    }
+}
+
+/// The bounds of an input that does not move.
+fn fixed(value: f64) -> Interval {
+    if value.is_nan() {
+        Interval { lo: f64::INFINITY, hi: f64::NEG_INFINITY, undefined: true }
+    } else {
+        Interval::new(value, value)
+    }
+}
+
+/// The children of `block`, axis 2 slowest: on each axis at most 4, each a leaf times a power of 4 long (the last one may be shorter), never
+/// shorter than `floor`. So all boxes of a lattice lie on multiples of their own length.
+fn split(block: &Block, leaf: [usize; 3], floor: [usize; 3], out: &mut Vec<Block>) {
+    let steps: [usize; 3] = std::array::from_fn(|d| step(block.to[d] - block.from[d], leaf[d], floor[d]));
+    let starts = |d: usize| (block.from[d]..block.to[d]).step_by(steps[d]);
+    out.clear();
+    for z in starts(2) {
+        for y in starts(1) {
+            for x in starts(0) {
+                let from = [x, y, z];
+                out.push(Block { from, to: std::array::from_fn(|d| (from[d] + steps[d]).min(block.to[d])) });
+            }
+        }
+    }
+}
+
+/// The length of the children of a side: the largest leaf times power of 4 that is shorter than the side, and at least `floor`.
+fn step(length: usize, leaf: usize, floor: usize) -> usize {
+    let mut step = leaf;
+    while step.saturating_mul(4) < length {
+        step *= 4;
+    }
+    step.max(floor)
+}

@@ -1,0 +1,366 @@
+//! Bricks: the undecided leaves of a grid, 8 x 8 x 8 sample points each, with the signs of their points and the vertices on their crossed
+//! edges. All that is inside or outside as a whole is a mark in a directory. Knows no triangles.
+//!
+//! A brick owns its points, the edges that start at them and the cells whose lowest corner they are. It evaluates the next plane of points on
+//! each axis too, so that it can find its own vertices; who joins them asks the owner for every sign.
+
+use super::boxes::{Block, Visitor, Walk, walk};
+use super::grid::{Grid, LEAF};
+use super::mesh::unit;
+use super::roots::{Crossing, Roots};
+use super::sampler::{Counters, Sampler};
+use crate::interrupt::{Cancelled, Interrupt};
+use crate::vm::{Program, Shape};
+
+/// Points along each side that a brick evaluates.
+const SIDE: usize = LEAF + 1;
+
+/// Those in all.
+const POINTS: usize = SIDE * SIDE * SIDE;
+
+/// An undecided leaf. Bit `x + 8 y` of word z stands for the point (x, y, z) of the brick.
+#[derive(Clone, Debug)]
+pub struct Brick {
+    /// Its place, in leaves.
+    pub at: [usize; 3],
+    /// Which of its points are inside.
+    pub inside: [u64; LEAF],
+    /// Which of the edges that start at its points are crossed, by axis.
+    pub crossed: [[u64; LEAF]; 3],
+    /// Crossed edges before each word of `crossed`.
+    before: [[u16; LEAF]; 3],
+    /// Number of the vertex on its first crossed edge.
+    first: u32,
+}
+
+impl Brick {
+    /// The number of the vertex on a crossed edge of this brick.
+    #[must_use]
+    pub fn vertex(&self, [x, y, z]: [usize; 3], axis: usize) -> u32 {
+        let bit = x + LEAF * y;
+        let lower = self.crossed[axis][z] & ((1 << bit) - 1);
+        self.first + u32::from(self.before[axis][z]) + lower.count_ones()
+    }
+
+    fn count(crossed: &[[u64; LEAF]; 3]) -> ([[u16; LEAF]; 3], u16) {
+        let mut sum = 0;
+        let before = crossed.map(|words| {
+            words.map(|word| {
+                let before = sum;
+                sum += word.count_ones() as u16;
+                before
+            })
+        });
+        (before, sum)
+    }
+}
+
+/// What a leaf of the grid is.
+#[derive(Clone, Copy, Debug)]
+pub enum Leaf<'a> {
+    /// All its points are outside.
+    Outside,
+    /// All its points are inside.
+    Inside,
+    /// Some are.
+    Mixed(&'a Brick),
+}
+
+impl Leaf<'_> {
+    /// The signs of its points, one word per z. Points beyond the grid's end mean nothing.
+    #[must_use]
+    pub fn inside(&self) -> [u64; LEAF] {
+        match self {
+            Self::Outside => [0; LEAF],
+            Self::Inside => [u64::MAX; LEAF],
+            Self::Mixed(brick) => brick.inside,
+        }
+    }
+}
+
+const OUTSIDE: u32 = u32::MAX;
+const INSIDE: u32 = u32::MAX - 1;
+
+/// All signs and vertices of a shape on a grid.
+#[derive(Debug)]
+pub struct Bricks {
+    /// The grid.
+    pub grid: Grid,
+    /// The undecided leaves, in a fixed order.
+    pub bricks: Vec<Brick>,
+    /// The vertices on crossed edges, in the order of their bricks.
+    pub positions: Vec<[f64; 3]>,
+    /// Unit vectors out of the solid at the vertices, against the gradient; 0 where that vanishes or is undefined.
+    pub normals: Vec<[f64; 3]>,
+    /// What it cost.
+    pub counters: Counters,
+    directory: Vec<u32>,
+}
+
+impl Bricks {
+    /// Evaluates the shape on the grid: intervals where they decide, points elsewhere. The shape's space must be that of the grid.
+    ///
+    /// # Errors
+    /// [`Cancelled`] soon after the interrupt was set; None where there are more than 2^32 - 2 vertices.
+    pub fn survey(shape: &Shape, grid: &Grid, interrupt: &Interrupt) -> Result<Option<Self>, Cancelled> {
+        let Walk { visitors, counters } = walk(grid, shape, |_| Gathering::new(grid), interrupt)?;
+        let leaves = grid.leaves();
+        let vertices = visitors.iter().map(|part| part.positions.len()).sum::<usize>();
+        if vertices >= INSIDE as usize {
+            return Ok(None);
+        }
+        let mut all = Self {
+            grid: *grid,
+            bricks: Vec::with_capacity(visitors.iter().map(|part| part.bricks.len()).sum()),
+            positions: Vec::with_capacity(vertices),
+            normals: Vec::with_capacity(vertices),
+            counters,
+            directory: vec![OUTSIDE; leaves.iter().product()],
+        };
+        for part in visitors {
+            for block in &part.inside {
+                all.mark_inside(block);
+            }
+            let first = all.positions.len() as u32;
+            for mut brick in part.bricks {
+                brick.first += first;
+                let place = all.place(brick.at);
+                all.directory[place] = all.bricks.len() as u32;
+                all.bricks.push(brick);
+            }
+            all.positions.extend_from_slice(&part.positions);
+            all.normals.extend_from_slice(&part.normals);
+        }
+        Ok(Some(all))
+    }
+
+    /// The leaf at that place; outside beyond the grid.
+    #[must_use]
+    pub fn leaf(&self, at: [usize; 3]) -> Leaf<'_> {
+        let leaves = self.grid.leaves();
+        if (0..3).any(|d| at[d] >= leaves[d]) {
+            return Leaf::Outside;
+        }
+        match self.directory[self.place(at)] {
+            OUTSIDE => Leaf::Outside,
+            INSIDE => Leaf::Inside,
+            brick => Leaf::Mixed(&self.bricks[brick as usize]),
+        }
+    }
+
+    /// Whether a sample point is inside.
+    #[must_use]
+    pub fn is_inside(&self, index: [usize; 3]) -> bool {
+        let [x, y, z] = index.map(|i| i % LEAF);
+        match self.leaf(index.map(|i| i / LEAF)) {
+            Leaf::Outside => false,
+            Leaf::Inside => true,
+            Leaf::Mixed(brick) => brick.inside[z] >> (x + LEAF * y) & 1 == 1,
+        }
+    }
+
+    /// The vertex on the edge that starts at a sample point, if the edge is crossed.
+    #[must_use]
+    pub fn vertex(&self, index: [usize; 3], axis: usize) -> Option<u32> {
+        let at = index.map(|i| i % LEAF);
+        match self.leaf(index.map(|i| i / LEAF)) {
+            Leaf::Mixed(brick) if brick.crossed[axis][at[2]] >> (at[0] + LEAF * at[1]) & 1 == 1 => {
+                Some(brick.vertex(at, axis))
+            }
+            _ => None,
+        }
+    }
+
+    fn place(&self, at: [usize; 3]) -> usize {
+        let [x, y, _] = self.grid.leaves();
+        at[0] + x * (at[1] + y * at[2])
+    }
+
+    fn mark_inside(&mut self, block: &Block) {
+        let (from, to) = (block.from.map(|i| i / LEAF), block.to.map(|i| i.div_ceil(LEAF)));
+        for z in from[2]..to[2] {
+            for y in from[1]..to[1] {
+                let row = self.place([from[0], y, z]);
+                self.directory[row..row + to[0] - from[0]].fill(INSIDE);
+            }
+        }
+    }
+}
+
+/// What one task gathers.
+struct Gathering<'a> {
+    grid: &'a Grid,
+    inside: Vec<Block>,
+    bricks: Vec<Brick>,
+    positions: Vec<[f64; 3]>,
+    normals: Vec<[f64; 3]>,
+    scratch: Scratch,
+}
+
+#[derive(Default)]
+struct Scratch {
+    columns: [Vec<f64>; 3],
+    values: Vec<f64>,
+    slopes: [Vec<f64>; 3],
+    crossings: Vec<Crossing>,
+    roots: Roots,
+}
+
+impl<'a> Gathering<'a> {
+    fn new(grid: &'a Grid) -> Self {
+        let nothing = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (inside, bricks, positions, normals) = nothing;
+        Self { grid, inside, bricks, positions, normals, scratch: Scratch::default() }
+    }
+
+    /// Evaluates the block and the next plane on each axis; x fastest. Returns the points along each side.
+    fn evaluate(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) -> [usize; 3] {
+        let side = std::array::from_fn(|d| (block.to[d] + 1).min(self.grid.cells[d] + 1) - block.from[d]);
+        let [xs, ys, zs]: [Vec<f64>; 3] =
+            std::array::from_fn(|d| (0..side[d]).map(|i| self.grid.coordinate(d, block.from[d] + i)).collect());
+        let scratch = &mut self.scratch;
+        scratch.columns.iter_mut().for_each(Vec::clear);
+        let [x, y, z] = &mut scratch.columns;
+        for &c in &zs {
+            for &b in &ys {
+                x.extend_from_slice(&xs);
+                y.resize(x.len(), b);
+            }
+            z.resize(x.len(), c);
+        }
+        scratch.values.clear();
+        scratch.values.resize(x.len(), 0.0);
+        sampler.values(program, &[&x[..], y, z][..self.grid.dimension()], &mut scratch.values);
+        side
+    }
+
+    /// Vertices and normals on all crossings in the scratch.
+    fn solve(&mut self, program: &Program, sampler: &mut Sampler) {
+        let dimension = self.grid.dimension();
+        let Scratch { columns, values, slopes, crossings, roots } = &mut self.scratch;
+        let first = self.positions.len();
+        roots.solve(crossings, dimension, program, sampler, &mut self.positions);
+        let found = &self.positions[first..];
+        for (axis, column) in columns.iter_mut().enumerate() {
+            column.clear();
+            column.extend(found.iter().map(|p| p[axis]));
+            slopes[axis].clear();
+            slopes[axis].resize(found.len(), 0.0);
+        }
+        values.clear();
+        values.resize(found.len(), 0.0);
+        let [x, y, z] = &columns;
+        let [a, b, c] = slopes;
+        sampler.slopes(program, &[&x[..], y, z][..dimension], values, &mut [&mut a[..], b, c][..dimension]);
+        let slopes = a.iter().zip(b.iter()).zip(c.iter());
+        self.normals.extend(slopes.map(|((&a, &b), &c)| unit([-a, -b, -c]).unwrap_or([0.0; 3])));
+    }
+}
+
+impl Visitor for Gathering<'_> {
+    fn uniform(&mut self, block: &Block, inside: bool) {
+        if inside {
+            self.inside.push(*block);
+        }
+    }
+
+    fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) {
+        let side = self.evaluate(block, program, sampler);
+        let signs = Signs::of(&self.scratch.values, side);
+        if let Some(inside) = signs.uniform {
+            self.uniform(block, inside);
+            return;
+        }
+        let at = block.from.map(|i| i / LEAF);
+        let crossed: [[u64; LEAF]; 3] = std::array::from_fn(|axis| signs.crossed(axis, side));
+        let (before, count) = Brick::count(&crossed);
+        let first = self.positions.len() as u32;
+        self.bricks.push(Brick { at, inside: signs.owned(), crossed, before, first });
+        self.scratch.crossings.clear();
+        self.scratch.crossings.reserve(usize::from(count));
+        for (axis, words) in crossed.iter().enumerate() {
+            for (z, &word) in words.iter().enumerate() {
+                for bit in bits(word) {
+                    let crossing = self.crossing(block, side, [bit % LEAF, bit / LEAF, z], axis);
+                    self.scratch.crossings.push(crossing);
+                }
+            }
+        }
+        self.solve(program, sampler);
+    }
+}
+
+impl Gathering<'_> {
+    fn crossing(&self, block: &Block, side: [usize; 3], at: [usize; 3], axis: usize) -> Crossing {
+        let stride = [1, side[0], side[0] * side[1]];
+        let here = at[0] + at[1] * stride[1] + at[2] * stride[2];
+        let index: [usize; 3] = std::array::from_fn(|d| block.from[d] + at[d]);
+        let values = &self.scratch.values;
+        Crossing {
+            start: self.grid.point(index),
+            axis,
+            end: self.grid.coordinate(axis, index[axis] + 1),
+            values: [values[here], values[here + stride[axis]]],
+        }
+    }
+}
+
+/// The set bits, ascending.
+pub(super) fn bits(mut word: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = word.trailing_zeros() as usize;
+        (word != 0).then(|| {
+            word &= word - 1;
+            bit
+        })
+    })
+}
+
+/// The signs of the points that a brick evaluated: row by row, bit x for x.
+struct Signs {
+    rows: [[u16; SIDE]; SIDE],
+    uniform: Option<bool>,
+}
+
+impl Signs {
+    fn of(values: &[f64], side: [usize; 3]) -> Self {
+        debug_assert!(values.len() <= POINTS);
+        let mut rows = [[0; SIDE]; SIDE];
+        let mut inside = 0;
+        for (i, line) in values.chunks_exact(side[0]).enumerate() {
+            let row = line.iter().enumerate().fold(0, |row, (x, &value)| row | u16::from(value >= 0.0) << x);
+            inside += row.count_ones() as usize;
+            rows[i / side[1]][i % side[1]] = row;
+        }
+        let uniform = [(0, false), (values.len(), true)].into_iter().find(|&(n, _)| n == inside).map(|(_, sign)| sign);
+        Self { rows, uniform }
+    }
+
+    /// The brick's own points.
+    fn owned(&self) -> [u64; LEAF] {
+        std::array::from_fn(|z| word(|y| self.rows[z][y]))
+    }
+
+    /// The crossed ones among the edges that start at the brick's own points and end at evaluated ones.
+    fn crossed(&self, axis: usize, side: [usize; 3]) -> [u64; LEAF] {
+        let edges: [usize; 3] = std::array::from_fn(|d| if d == axis { side[d] - 1 } else { side[d].min(LEAF) });
+        let row = |y: usize, z: usize| {
+            if y >= edges[1] || z >= edges[2] {
+                return 0;
+            }
+            let here = self.rows[z][y];
+            let there = match axis {
+                0 => here >> 1,
+                1 => self.rows[z][y + 1],
+                _ => self.rows[z + 1][y],
+            };
+            (here ^ there) & ((1 << edges[0]) - 1)
+        };
+        std::array::from_fn(|z| word(|y| row(y, z)))
+    }
+}
+
+/// Eight rows of eight bits in one word.
+fn word(row: impl Fn(usize) -> u16) -> u64 {
+    (0..LEAF).fold(0, |word, y| word | u64::from(row(y) & 0xff) << (LEAF * y))
+}

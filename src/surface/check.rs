@@ -1,0 +1,193 @@
+//! The proof that a mesh is closed, oriented and 2-manifold: before it is written, never instead of making it so.
+//!
+//! Checked: every vertex is finite and the corners of every triangle differ, also after rounding to single precision as STL does; no two
+//! vertices become one by that rounding; each directed edge is used once and its reverse once; the triangles about a vertex are one fan.
+//! Not checked: whether triangles cut through each other.
+
+use std::fmt;
+
+use rayon::prelude::*;
+
+use super::mesh::Mesh;
+
+/// What is wrong with a mesh, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fault {
+    /// A vertex has a coordinate that is not finite, or is too large for single precision.
+    NotFinite(usize),
+    /// A triangle names a vertex that does not exist.
+    NoSuchVertex(usize),
+    /// Two corners of a triangle are one, at this place.
+    Degenerate(usize, [f64; 3]),
+    /// Two vertices become one in single precision.
+    Coincident(usize, usize, [f64; 3]),
+    /// A directed edge is used by more than one triangle.
+    Repeated([f64; 3], [f64; 3]),
+    /// An edge has a triangle on one side only.
+    Open([f64; 3], [f64; 3]),
+    /// The triangles about a vertex are more than one fan.
+    Fans([f64; 3]),
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let at = |[x, y, z]: [f64; 3]| format!("({x:.6}, {y:.6}, {z:.6})");
+        match *self {
+            Self::NotFinite(v) => write!(f, "vertex {v} is not finite in single precision"),
+            Self::NoSuchVertex(t) => write!(f, "triangle {t} names a vertex that does not exist"),
+            Self::Degenerate(t, p) => write!(f, "two corners of triangle {t} are one at {}", at(p)),
+            Self::Coincident(a, b, p) => {
+                write!(f, "vertices {a} and {b} are one in single precision at {}: cells are too small there", at(p))
+            }
+            Self::Repeated(a, b) => write!(f, "the edge from {} to {} is used twice", at(a), at(b)),
+            Self::Open(a, b) => write!(f, "the edge from {} to {} has a triangle on one side only", at(a), at(b)),
+            Self::Fans(p) => write!(f, "the triangles about {} are more than one fan", at(p)),
+        }
+    }
+}
+
+impl std::error::Error for Fault {}
+
+/// What a checked mesh is like.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Topology {
+    /// Vertices that triangles use.
+    pub vertices: usize,
+    /// Edges, each counted once.
+    pub edges: usize,
+    /// Triangles.
+    pub triangles: usize,
+    /// Euler characteristic: vertices - edges + triangles.
+    pub euler: i64,
+    /// Connected parts of the surface; a cavity is one too.
+    pub components: usize,
+    /// Handles of all components together.
+    pub genus: i64,
+}
+
+/// Checks a mesh. The first fault by number of triangle or vertex is told.
+///
+/// # Errors
+/// A [`Fault`] if the mesh is not closed, oriented and 2-manifold.
+pub fn check(mesh: &Mesh) -> Result<Topology, Fault> {
+    check_vertices(mesh)?;
+    check_triangles(mesh)?;
+    let corners = Corners::of(mesh);
+    let fault = (0..mesh.positions.len()).into_par_iter().find_map_first(|v| corners.fault(mesh, v));
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    let vertices = corners.start.windows(2).filter(|pair| pair[0] < pair[1]).count();
+    let triangles = mesh.triangles.len();
+    let edges = triangles * 3 / 2;
+    let euler = vertices as i64 - edges as i64 + triangles as i64;
+    let components = components(mesh);
+    Ok(Topology { vertices, edges, triangles, euler, components, genus: components as i64 - euler / 2 })
+}
+
+/// The bits of a coordinate in single precision; both zeros are one.
+fn single(position: [f64; 3]) -> [u32; 3] {
+    position.map(|c| (c as f32 + 0.0).to_bits())
+}
+
+fn check_vertices(mesh: &Mesh) -> Result<(), Fault> {
+    let is_bad = |p: &[f64; 3]| p.iter().any(|&c| !(c as f32).is_finite());
+    if let Some(v) = mesh.positions.par_iter().position_first(is_bad) {
+        return Err(Fault::NotFinite(v));
+    }
+    let mut rounded: Vec<([u32; 3], usize)> =
+        mesh.positions.par_iter().enumerate().map(|(v, &p)| (single(p), v)).collect();
+    rounded.par_sort_unstable();
+    let twins = rounded.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+    match twins.map(|pair| (pair[0].1, pair[1].1)).min() {
+        Some((a, b)) => Err(Fault::Coincident(a, b, mesh.positions[a])),
+        None => Ok(()),
+    }
+}
+
+fn check_triangles(mesh: &Mesh) -> Result<(), Fault> {
+    let count = mesh.positions.len();
+    if let Some(t) = mesh.triangles.par_iter().position_first(|t| t.iter().any(|&v| v as usize >= count)) {
+        return Err(Fault::NoSuchVertex(t));
+    }
+    let is_degenerate = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+    match mesh.triangles.par_iter().position_first(is_degenerate) {
+        Some(t) => Err(Fault::Degenerate(t, mesh.corners(mesh.triangles[t])[0])),
+        None => Ok(()),
+    }
+}
+
+/// For each vertex the triangles about it: the corner that follows it and the one before it.
+struct Corners {
+    start: Vec<usize>,
+    sides: Vec<[u32; 2]>,
+}
+
+impl Corners {
+    fn of(mesh: &Mesh) -> Self {
+        let mut start = vec![0; mesh.positions.len() + 1];
+        for &v in mesh.triangles.iter().flatten() {
+            start[v as usize + 1] += 1;
+        }
+        for i in 1..start.len() {
+            start[i] += start[i - 1];
+        }
+        let mut free = start.clone();
+        let mut sides = vec![[0; 2]; mesh.triangles.len() * 3];
+        for &[a, b, c] in &mesh.triangles {
+            for [v, next, last] in [[a, b, c], [b, c, a], [c, a, b]] {
+                sides[free[v as usize]] = [next, last];
+                free[v as usize] += 1;
+            }
+        }
+        Self { start, sides }
+    }
+
+    /// What is wrong about vertex v. Its outgoing edges must differ, its incoming ones be their reverses, and going round from triangle
+    /// to triangle must pass all of them.
+    fn fault(&self, mesh: &Mesh, v: usize) -> Option<Fault> {
+        let about = &self.sides[self.start[v]..self.start[v + 1]];
+        let (from, place) = (mesh.positions[v], |v: u32| mesh.positions[v as usize]);
+        let mut outgoing = about.to_vec();
+        outgoing.sort_unstable();
+        if let Some(pair) = outgoing.windows(2).find(|pair| pair[0][0] == pair[1][0]) {
+            return Some(Fault::Repeated(from, place(pair[0][0])));
+        }
+        let find = |other: u32| outgoing.binary_search_by_key(&other, |side| side[0]);
+        if let Some(side) = about.iter().find(|side| find(side[1]).is_err()) {
+            return Some(Fault::Open(place(side[1]), from));
+        }
+        let mut at = 0;
+        for turn in 1..=outgoing.len() {
+            at = find(outgoing[at][1]).unwrap_or(0);
+            if at == 0 {
+                return (turn < outgoing.len()).then_some(Fault::Fans(from));
+            }
+        }
+        (!outgoing.is_empty()).then(|| Fault::Repeated(from, from))
+    }
+}
+
+/// Connected parts: sets of vertices joined by triangles.
+fn components(mesh: &Mesh) -> usize {
+    let mut parent: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+    for &[a, b, c] in &mesh.triangles {
+        for other in [b, c] {
+            let (p, q) = (root(&mut parent, a), root(&mut parent, other));
+            parent[p.max(q) as usize] = p.min(q);
+        }
+    }
+    let mut is_used = vec![false; parent.len()];
+    mesh.triangles.iter().flatten().for_each(|&v| is_used[v as usize] = true);
+    (0..parent.len()).filter(|&v| is_used[v] && parent[v] as usize == v).count()
+}
+
+/// The root of a vertex; halves the path to it.
+fn root(parent: &mut [u32], mut v: u32) -> u32 {
+    while parent[v as usize] != v {
+        let above = parent[parent[v as usize] as usize];
+        parent[v as usize] = above;
+        v = above;
+    }
+    v
+}

@@ -1,0 +1,232 @@
+//! Marching cubes with one consistent table: from a shape and a grid to a mesh that is closed, oriented and 2-manifold by construction.
+//!
+//! Zero is inside, undefined is outside. The mesh has the signs of dense sampling at every sample point, only sooner. It is capped by the
+//! modelling space, and the report says where. It may cut through itself where the solid is thinner than a cell, and it promises nothing
+//! about parts that lie between sample points.
+
+use std::fmt;
+
+use rayon::prelude::*;
+
+use super::boxes::Lattice;
+use super::brick::{Brick, Bricks, Leaf, bits};
+use super::cap;
+use super::grid::{Grid, LEAF};
+use super::mesh::{Mesh, cross, minus, unit};
+use super::sampler::{Counters, Sampler};
+use super::table::{CASES, Edge, edge_start};
+use crate::interrupt::{Cancelled, Interrupt};
+use crate::vm::Shape;
+
+/// A mesh and what there is to say about it.
+#[derive(Clone, Debug)]
+pub struct Extraction {
+    /// The mesh; without triangles where no sample point is inside.
+    pub mesh: Mesh,
+    /// What it cost, where it was cut.
+    pub report: Report,
+}
+
+/// What there is to say about an extraction.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Points and boxes evaluated, undefined points.
+    pub counters: Counters,
+    /// Sample points of the whole grid: what dense sampling would have evaluated.
+    pub samples: u64,
+    /// Faces of the modelling space beyond which the object goes on: lower and upper for each axis. A boundary that lies exactly in a
+    /// face is not cut by it.
+    pub cut: [[bool; 2]; 3],
+}
+
+/// Why there is no mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SurfaceError {
+    /// The work was asked to stop.
+    Cancelled,
+    /// The shape has another number of coordinates than the grid (shape, grid).
+    Dimension(usize, usize),
+    /// More vertices than 32 bits can number.
+    TooManyVertices,
+    /// Near this place the signs of neighbouring boxes contradict each other: an error of the evaluator, never of the user.
+    Contradiction([f64; 3]),
+}
+
+impl fmt::Display for SurfaceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cancelled => write!(f, "cancelled"),
+            Self::Dimension(shape, grid) => write!(f, "the object has {shape} free coordinates where {grid} are needed"),
+            Self::TooManyVertices => write!(f, "the mesh has more than four thousand million vertices"),
+            Self::Contradiction([x, y, z]) => write!(f, "the signs near ({x}, {y}, {z}) contradict each other"),
+        }
+    }
+}
+
+impl std::error::Error for SurfaceError {}
+
+impl From<Cancelled> for SurfaceError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+/// Extracts the boundary of a 3-D shape on a grid. Runs on the current rayon pool; the same result for any number of threads.
+///
+/// # Errors
+/// See [`SurfaceError`].
+pub fn extract(shape: &Shape, grid: &Grid, interrupt: &Interrupt) -> Result<Extraction, SurfaceError> {
+    if shape.dimension != 3 || grid.dimension() != 3 {
+        return Err(SurfaceError::Dimension(shape.dimension, 3));
+    }
+    let mut bricks = Bricks::survey(shape, grid, interrupt)?.ok_or(SurfaceError::TooManyVertices)?;
+    let samples = grid.counts().iter().map(|&n| n as u64).product();
+    let mut report = Report { counters: std::mem::take(&mut bricks.counters), samples, cut: [[false; 2]; 3] };
+    let mut triangles = join(&bricks, interrupt)?;
+    let caps = cap::close(&bricks, interrupt)?;
+    let uncapped = bricks.positions.len();
+    let mut mesh = Mesh {
+        positions: std::mem::take(&mut bricks.positions),
+        normals: std::mem::take(&mut bricks.normals),
+        triangles: Vec::new(),
+    };
+    for face in &caps.faces {
+        triangles.extend_from_slice(&face.triangles);
+        report.cut[face.axis][face.side] = goes_on(shape, &caps, &face.points, &mut report.counters);
+    }
+    mesh.positions.extend_from_slice(&caps.positions);
+    mesh.normals.extend_from_slice(&caps.normals);
+    mesh.triangles = triangles;
+    if mesh.positions.len() > u32::MAX as usize {
+        return Err(SurfaceError::TooManyVertices);
+    }
+    mend_normals(&mut mesh, uncapped);
+    Ok(Extraction { mesh, report })
+}
+
+/// The triangles of all cells between sample points, in the order of the bricks.
+fn join(bricks: &Bricks, interrupt: &Interrupt) -> Result<Vec<[u32; 3]>, SurfaceError> {
+    let corners = corners_of_cases();
+    let parts: Vec<Vec<[u32; 3]>> = bricks
+        .bricks
+        .par_chunks(64)
+        .map(|chunk| {
+            interrupt.tick()?;
+            let mut triangles = Vec::new();
+            for brick in chunk {
+                Neighbourhood::of(bricks, brick).join(&corners, &mut triangles)?;
+            }
+            Ok(triangles)
+        })
+        .collect::<Result<_, SurfaceError>>()?;
+    Ok(parts.concat())
+}
+
+/// A corner of a triangle in a case: where its edge starts in the cell, and the edge's axis.
+type Corner = ([usize; 3], usize);
+
+/// The table with its edges looked up.
+fn corners_of_cases() -> Vec<Vec<[Corner; 3]>> {
+    CASES.iter().map(|case| case.iter().map(|t: &[Edge; 3]| t.map(edge_start)).collect()).collect()
+}
+
+/// A brick and the seven leaves that hold the far corners of its cells, by bits x, y, z.
+struct Neighbourhood<'a> {
+    leaves: [Leaf<'a>; 8],
+    grid: &'a Grid,
+    at: [usize; 3],
+}
+
+impl<'a> Neighbourhood<'a> {
+    fn of(bricks: &'a Bricks, brick: &'a Brick) -> Self {
+        let leaves = std::array::from_fn(|n| match n {
+            0 => Leaf::Mixed(brick),
+            _ => bricks.leaf(std::array::from_fn(|d| brick.at[d] + (n >> d & 1))),
+        });
+        Self { leaves, grid: &bricks.grid, at: brick.at }
+    }
+
+    /// The signs of 9 x 9 x 9 points, bit x of row (z, y).
+    fn rows(&self) -> [[u16; LEAF + 1]; LEAF + 1] {
+        let words: [[u64; LEAF]; 8] = std::array::from_fn(|n| self.leaves[n].inside());
+        std::array::from_fn(|z| {
+            std::array::from_fn(|y| {
+                let n = 2 * (y / LEAF) + 4 * (z / LEAF);
+                let row = |n: usize| (words[n][z % LEAF] >> (LEAF * (y % LEAF))) as u16 & 0xff;
+                row(n) | (row(n + 1) & 1) << LEAF
+            })
+        })
+    }
+
+    /// Appends the triangles of the brick's cells.
+    fn join(&self, corners: &[Vec<[Corner; 3]>], triangles: &mut Vec<[u32; 3]>) -> Result<(), SurfaceError> {
+        let rows = self.rows();
+        let cells: [usize; 3] = std::array::from_fn(|d| (self.grid.cells[d] - LEAF * self.at[d]).min(LEAF));
+        for z in 0..cells[2] {
+            for y in 0..cells[1] {
+                let four = [rows[z][y], rows[z][y + 1], rows[z + 1][y], rows[z + 1][y + 1]];
+                let any = four[0] | four[1] | four[2] | four[3];
+                let all = four[0] & four[1] & four[2] & four[3];
+                let mixed = (any | any >> 1) & !(all & all >> 1) & ((1 << cells[0]) - 1);
+                for x in bits(u64::from(mixed)) {
+                    let case = (0..4).fold(0, |case, i| case | usize::from(four[i] >> x & 3) << (2 * i));
+                    for triangle in &corners[case] {
+                        let mut vertices = [0; 3];
+                        for (vertex, &([dx, dy, dz], axis)) in vertices.iter_mut().zip(triangle) {
+                            let at = [x + dx, y + dy, z + dz];
+                            *vertex = self.vertex(at, axis).ok_or_else(|| self.contradiction(at))?;
+                        }
+                        triangles.push(vertices);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The vertex on the edge that starts at a point of the neighbourhood.
+    fn vertex(&self, [x, y, z]: [usize; 3], axis: usize) -> Option<u32> {
+        match &self.leaves[x / LEAF + 2 * (y / LEAF) + 4 * (z / LEAF)] {
+            Leaf::Mixed(brick) => Some(brick.vertex([x % LEAF, y % LEAF, z % LEAF], axis)),
+            _ => None,
+        }
+    }
+
+    fn contradiction(&self, at: [usize; 3]) -> SurfaceError {
+        SurfaceError::Contradiction(self.grid.point(std::array::from_fn(|d| LEAF * self.at[d] + at[d])))
+    }
+}
+
+/// Whether the object goes on beyond a face: whether the function is above zero at one of the inside points in it.
+fn goes_on(shape: &Shape, caps: &cap::Caps, points: &[u32], counters: &mut Counters) -> bool {
+    const AT_ONCE: usize = 128;
+    let mut sampler = Sampler::new(shape);
+    let mut values = [0.0; AT_ONCE];
+    let found = points.chunks(AT_ONCE).any(|chunk| {
+        let columns: [Vec<f64>; 3] =
+            std::array::from_fn(|d| chunk.iter().map(|&p| caps.positions[p as usize][d]).collect());
+        let [x, y, z] = &columns;
+        sampler.values(&shape.program, &[x, y, z], &mut values[..chunk.len()]);
+        values[..chunk.len()].iter().any(|&value| value > 0.0)
+    });
+    counters.add(sampler.take_counters());
+    found
+}
+
+/// Where the gradient gave no normal, the sum of the normals of the triangles about the vertex does, weighted by area.
+fn mend_normals(mesh: &mut Mesh, count: usize) {
+    let missing: Vec<bool> = mesh.normals.iter().map(|n| *n == [0.0; 3]).collect();
+    if !missing[..count].contains(&true) {
+        return;
+    }
+    for &triangle in &mesh.triangles {
+        let [a, b, c] = mesh.corners(triangle);
+        let normal = cross(minus(b, a), minus(c, a));
+        for vertex in triangle.map(|v| v as usize).into_iter().filter(|&v| missing[v]) {
+            (0..3).for_each(|d| mesh.normals[vertex][d] += normal[d]);
+        }
+    }
+    for (normal, _) in mesh.normals.iter_mut().zip(missing).filter(|(_, missing)| *missing) {
+        *normal = unit(*normal).unwrap_or([0.0, 0.0, 1.0]);
+    }
+}

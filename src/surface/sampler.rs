@@ -1,0 +1,119 @@
+//! One thread's means to evaluate a shape at points of its space: fills in the inputs that do not move, and counts what was evaluated.
+
+use crate::number::Interval;
+use crate::vm::block::Points;
+use crate::vm::gradient::Gradients;
+use crate::vm::{Program, Shape};
+
+/// What a computation cost, and where the function was undefined.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Counters {
+    /// Points at which the function was evaluated, root search and gradients included.
+    pub points: u64,
+    /// Boxes over which it was bounded.
+    pub boxes: u64,
+    /// Points among [`Counters::points`] where it was undefined (NaN), which count as outside.
+    pub undefined: u64,
+    /// One of those: as many coordinates as the space has.
+    pub example: Option<Vec<f64>>,
+}
+
+impl Counters {
+    /// Adds what another part of the work cost; the example of the earlier part stays.
+    pub fn add(&mut self, other: Self) {
+        self.points += other.points;
+        self.boxes += other.boxes;
+        self.undefined += other.undefined;
+        if self.example.is_none() {
+            self.example = other.example;
+        }
+    }
+}
+
+/// Evaluates programs of one [`Shape`] (its own and those specialised from it) at points of the space. Allocates only while it warms up.
+pub struct Sampler {
+    dimension: usize,
+    fixed: Vec<(f64, Vec<f64>)>,
+    points: Points<f64>,
+    gradients: Gradients,
+    counters: Counters,
+}
+
+impl Sampler {
+    /// A sampler for the programs of `shape`.
+    #[must_use]
+    pub fn new(shape: &Shape) -> Self {
+        Self {
+            dimension: shape.dimension,
+            fixed: shape.fixed.iter().map(|&value| (value, Vec::new())).collect(),
+            points: Points::new(),
+            gradients: Gradients::new(),
+            counters: Counters::default(),
+        }
+    }
+
+    /// The values at points: one slice of equal length per coordinate of the space, and `out` as long.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    pub fn values(&mut self, program: &Program, at: &[&[f64]], out: &mut [f64]) {
+        let mut slices = [&[][..]; 16];
+        let slices = inputs(&mut self.fixed, self.dimension, at, out.len(), &mut slices);
+        self.points.eval(program, slices, out);
+        self.count(at, out);
+    }
+
+    /// The values and, by each coordinate of the space, the slopes at points.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    pub fn slopes(&mut self, program: &Program, at: &[&[f64]], out: &mut [f64], slopes: &mut [&mut [f64]]) {
+        let mut slices = [&[][..]; 16];
+        let slices = inputs(&mut self.fixed, self.dimension, at, out.len(), &mut slices);
+        self.gradients.eval(program, slices, &[0, 1, 2][..self.dimension], out, slopes);
+        self.count(at, out);
+    }
+
+    /// What was counted since the last call.
+    pub fn take_counters(&mut self) -> Counters {
+        std::mem::take(&mut self.counters)
+    }
+
+    fn count(&mut self, at: &[&[f64]], values: &[f64]) {
+        self.counters.points += values.len() as u64;
+        let undefined = values.iter().filter(|v| v.is_nan()).count();
+        if undefined > 0 {
+            self.counters.undefined += undefined as u64;
+            if self.counters.example.is_none() {
+                let first = values.iter().position(|v| v.is_nan());
+                self.counters.example = first.map(|i| at.iter().map(|axis| axis[i]).collect());
+            }
+        }
+    }
+}
+
+/// The slices of all inputs of a program: the moving ones from `at`, the fixed ones as constant columns of length `count`.
+fn inputs<'s, 'a: 's>(
+    fixed: &'a mut [(f64, Vec<f64>)],
+    dimension: usize,
+    at: &[&'a [f64]],
+    count: usize,
+    slices: &'s mut [&'a [f64]; 16],
+) -> &'s [&'a [f64]] {
+    assert_eq!(at.len(), dimension, "one slice per coordinate of the space");
+    let total = dimension + fixed.len();
+    slices[..dimension].copy_from_slice(at);
+    for (slice, (value, column)) in slices[dimension..].iter_mut().zip(fixed) {
+        if column.len() < count {
+            column.resize(count, *value);
+        }
+        *slice = &column[..count];
+    }
+    &slices[..total]
+}
+
+/// The interval from the smaller to the larger of two coordinates that bound a box of sample points.
+#[must_use]
+pub fn span(a: f64, b: f64) -> Interval {
+    Interval::new(a.min(b), a.max(b))
+}

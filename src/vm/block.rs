@@ -1,0 +1,167 @@
+//! Values at many points, in double or single precision. Double precision decides what a user sees; single precision may filter.
+//! Allocates nothing per block once it has seen its largest program.
+
+use super::kernels::{Kind, Store, run};
+use super::program::Program;
+use crate::number::float::Float;
+use crate::number::{Binary, Leaf, Ternary, Unary};
+
+/// 1 KB of numbers, aligned to a cache line; the allocator's own header keeps blocks off a pitch of 1 KB, at which they would
+/// collide in the cache.
+#[repr(align(64))]
+pub struct Lanes<T, const N: usize>([T; N]);
+
+impl<T: Float, const N: usize> Default for Lanes<T, N> {
+    fn default() -> Self {
+        Self([T::ZERO; N])
+    }
+}
+
+/// The numbers that blocks of points can hold: `f64`, 128 of them, and `f32`, 256 of them.
+pub trait Scalar: Float + sealed::Blocks {}
+
+impl Scalar for f64 {}
+impl Scalar for f32 {}
+
+mod sealed {
+    use super::{Kind, Lanes};
+
+    pub trait Blocks: Sized {
+        #[expect(private_bounds, reason = "the trait is sealed; evaluators alone know what a kind is")]
+        type Of: Kind<Item = Self, Block: AsRef<[Self]> + AsMut<[Self]>, Watch = ()>;
+    }
+
+    impl<T, const N: usize> AsRef<[T]> for Lanes<T, N> {
+        fn as_ref(&self) -> &[T] {
+            &self.0
+        }
+    }
+    impl<T, const N: usize> AsMut<[T]> for Lanes<T, N> {
+        fn as_mut(&mut self) -> &mut [T] {
+            &mut self.0
+        }
+    }
+}
+
+/// Blocks of doubles.
+pub struct Doubles;
+/// Blocks of singles.
+pub struct Singles;
+
+impl sealed::Blocks for f64 {
+    type Of = Doubles;
+}
+impl sealed::Blocks for f32 {
+    type Of = Singles;
+}
+
+impl Kind for Doubles {
+    type Item = f64;
+    type Block = Lanes<f64, 128>;
+    type Watch = ();
+    const LANES: usize = 128;
+
+    #[inline(always)]
+    fn get(block: &Self::Block, lane: usize) -> f64 {
+        block.0[lane]
+    }
+    #[inline(always)]
+    fn set(block: &mut Self::Block, lane: usize, item: f64) {
+        block.0[lane] = item;
+    }
+    #[inline(always)]
+    fn constant(value: f64) -> f64 {
+        value
+    }
+    #[inline(always)]
+    fn unary(op: Unary, a: f64) -> f64 {
+        op.real(a)
+    }
+    #[inline(always)]
+    fn binary(op: Binary, a: f64, b: f64) -> f64 {
+        op.real(a, b)
+    }
+    #[inline(always)]
+    fn ternary(op: Ternary, a: f64, b: f64, c: f64) -> f64 {
+        op.real(a, b, c)
+    }
+    fn leaf(leaf: &dyn Leaf, arguments: &[f64]) -> f64 {
+        leaf.value(arguments)
+    }
+}
+
+impl Kind for Singles {
+    type Item = f32;
+    type Block = Lanes<f32, 256>;
+    type Watch = ();
+    const LANES: usize = 256;
+
+    #[inline(always)]
+    fn get(block: &Self::Block, lane: usize) -> f32 {
+        block.0[lane]
+    }
+    #[inline(always)]
+    fn set(block: &mut Self::Block, lane: usize, item: f32) {
+        block.0[lane] = item;
+    }
+    #[inline(always)]
+    fn constant(value: f64) -> f32 {
+        value as f32
+    }
+    #[inline(always)]
+    fn unary(op: Unary, a: f32) -> f32 {
+        op.single(a)
+    }
+    #[inline(always)]
+    fn binary(op: Binary, a: f32, b: f32) -> f32 {
+        op.single(a, b)
+    }
+    #[inline(always)]
+    fn ternary(op: Ternary, a: f32, b: f32, c: f32) -> f32 {
+        op.single(a, b, c)
+    }
+    fn leaf(leaf: &dyn Leaf, arguments: &[f32]) -> f32 {
+        let mut at = [0.0; 4];
+        at.iter_mut().zip(arguments).for_each(|(to, from)| *to = f64::from(*from));
+        leaf.value(&at[..arguments.len()]) as f32
+    }
+}
+
+/// Evaluates programs at points, a block at a time. Keep one per thread.
+pub struct Points<T: Scalar> {
+    store: Store<T::Of>,
+}
+
+impl<T: Scalar> Default for Points<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T: Scalar> Points<T> {
+    /// An evaluator without storage yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { store: Store::new() }
+    }
+
+    /// The values at `out.len()` points: `points` has one slice of that length per input of the program.
+    ///
+    /// # Panics
+    /// If the number of slices or a length is another.
+    pub fn eval(&mut self, program: &Program, points: &[&[T]], out: &mut [T]) {
+        assert_eq!(points.len(), program.inputs().len(), "one slice per input");
+        assert!(points.iter().all(|p| p.len() == out.len()), "one coordinate per point");
+        self.store.reserve(program);
+        let size = <T::Of as Kind>::LANES;
+        for (block, out) in out.chunks_mut(size).enumerate() {
+            for (input, values) in points.iter().enumerate() {
+                let values = &values[block * size..][..out.len()];
+                self.store.input(input).as_mut()[..out.len()].copy_from_slice(values);
+            }
+            // Whole vectors are computed; what the lanes beyond the last point hold is never read.
+            run::<T::Of>(program, &mut self.store, out.len().next_multiple_of(16), &mut ());
+            out.copy_from_slice(&self.store.result(program).as_ref()[..out.len()]);
+        }
+    }
+}

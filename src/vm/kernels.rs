@@ -1,0 +1,240 @@
+//! Runs a program over a block of lanes: one closure per operation, whatever kind of number the lanes hold. The instruction set is
+//! chosen when the program runs; the bits of the results do not depend on it, since nothing is ever fused or reordered.
+//!
+//! Each result is computed into a spare block, which then changes places with the block of its slot: so a result may take the slot of
+//! an operand, and the loops never write where they read (they would fall back to scalar code).
+
+use multiversion::multiversion;
+
+use super::program::{Op, Program, Value};
+use crate::number::{Binary, Leaf, Ternary, Unary};
+
+/// A kind of number to evaluate with, and how a block of them lies in memory.
+pub(crate) trait Kind {
+    /// One number.
+    type Item: Copy;
+    /// [`Kind::LANES`] numbers, by component, aligned to a cache line.
+    type Block: Default;
+    /// What is told of each operation and its results.
+    type Watch;
+
+    /// Numbers in a block.
+    const LANES: usize;
+
+    fn get(block: &Self::Block, lane: usize) -> Self::Item;
+    fn set(block: &mut Self::Block, lane: usize, item: Self::Item);
+    fn constant(value: f64) -> Self::Item;
+    fn unary(op: Unary, a: Self::Item) -> Self::Item;
+    fn binary(op: Binary, a: Self::Item, b: Self::Item) -> Self::Item;
+    fn ternary(op: Ternary, a: Self::Item, b: Self::Item, c: Self::Item) -> Self::Item;
+    fn leaf(leaf: &dyn Leaf, arguments: &[Self::Item]) -> Self::Item;
+
+    /// Called with each operation before its result takes its slot.
+    #[inline(always)]
+    fn watch(_: &mut Self::Watch, _at: usize, _op: &Op, _operands: &Operands<'_, Self>, _result: &Self::Block) {}
+}
+
+/// The blocks of an evaluator, kept from one call to the next.
+pub(crate) struct Store<K: Kind + ?Sized> {
+    slots: Vec<Box<K::Block>>,
+    spare: Box<K::Block>,
+}
+
+impl<K: Kind> Store<K> {
+    pub(crate) fn new() -> Self {
+        Self { slots: Vec::new(), spare: Box::default() }
+    }
+
+    /// Makes room for a program; allocates only for more slots than ever before.
+    pub(crate) fn reserve(&mut self, program: &Program) {
+        while self.slots.len() < program.slot_count() {
+            self.slots.push(Box::default());
+        }
+    }
+
+    /// The block of an input.
+    pub(crate) fn input(&mut self, input: usize) -> &mut K::Block {
+        &mut self.slots[input]
+    }
+
+    /// The block that holds the results once the program has run.
+    pub(crate) fn result(&self, program: &Program) -> &K::Block {
+        &self.slots[program.slots[program.root as usize] as usize]
+    }
+}
+
+/// The blocks that operations read, by value.
+pub(crate) struct Operands<'a, K: Kind + ?Sized> {
+    blocks: &'a [Box<K::Block>],
+    slots: &'a [u32],
+}
+
+impl<'a, K: Kind + ?Sized> Operands<'a, K> {
+    #[inline(always)]
+    pub(crate) fn of(&self, value: Value) -> &'a K::Block {
+        &self.blocks[self.slots[value as usize] as usize]
+    }
+}
+
+/// Runs the program on the first `lanes` lanes of the input blocks.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+pub(crate) fn run<K: Kind>(program: &Program, store: &mut Store<K>, lanes: usize, watch: &mut K::Watch) {
+    let lanes = lanes.min(K::LANES);
+    let results = &program.slots[program.inputs.len()..];
+    for (at, (op, slot)) in program.operations.iter().zip(results).enumerate() {
+        let operands = Operands { blocks: &store.slots, slots: &program.slots };
+        step::<K>(program, op, &operands, &mut store.spare, lanes);
+        K::watch(watch, at, op, &operands, &store.spare);
+        std::mem::swap(&mut store.spare, &mut store.slots[*slot as usize]);
+    }
+}
+
+#[inline(always)]
+fn step<K: Kind>(program: &Program, op: &Op, operands: &Operands<'_, K>, out: &mut K::Block, lanes: usize) {
+    match *op {
+        Op::Constant(value) => {
+            let value = K::constant(value);
+            (0..lanes).for_each(|i| K::set(out, i, value));
+        }
+        Op::Unary(op, a) => unary::<K>(op, operands.of(a), out, lanes),
+        Op::Binary(op, a, b) => binary::<K>(op, operands.of(a), operands.of(b), out, lanes),
+        Op::WithRight(op, a, number) => with_right::<K>(op, operands.of(a), number, out, lanes),
+        Op::WithLeft(op, number, b) => with_left::<K>(op, number, operands.of(b), out, lanes),
+        Op::Ternary(op, [a, b, c]) => ternary::<K>(op, [operands.of(a), operands.of(b), operands.of(c)], out, lanes),
+        Op::Join(op, a, b, number) => join::<K>(op, operands.of(a), operands.of(b), number, out, lanes),
+        Op::Extreme(op, _, a, b) => extreme::<K>(op, operands.of(a), operands.of(b), out, lanes),
+        Op::Leaf(leaf, arity, arguments) => {
+            let leaf = &*program.leaves[leaf as usize].0;
+            for i in 0..lanes {
+                let items = arguments.map(|a| K::get(operands.of(a), i));
+                K::set(out, i, K::leaf(leaf, &items[..usize::from(arity)]));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn each1<K: Kind>(a: &K::Block, out: &mut K::Block, lanes: usize, f: impl Fn(K::Item) -> K::Item) {
+    for i in 0..lanes.min(K::LANES) {
+        K::set(out, i, f(K::get(a, i)));
+    }
+}
+
+#[inline(always)]
+fn each2<K: Kind>(
+    a: &K::Block,
+    b: &K::Block,
+    out: &mut K::Block,
+    lanes: usize,
+    f: impl Fn(K::Item, K::Item) -> K::Item,
+) {
+    for i in 0..lanes.min(K::LANES) {
+        K::set(out, i, f(K::get(a, i), K::get(b, i)));
+    }
+}
+
+/// One loop for each of the operations listed, in which the operation is a constant.
+macro_rules! apart {
+    ($op:expr, $kind:ident [$($name:ident)*], $which:ident => $loop:expr, $rest:pat => $otherwise:expr) => {
+        match $op {
+            $($kind::$name => {
+                let $which = $kind::$name;
+                $loop
+            })*
+            $rest => $otherwise,
+        }
+    };
+}
+
+#[inline(always)]
+fn unary<K: Kind>(op: Unary, a: &K::Block, out: &mut K::Block, lanes: usize) {
+    apart!(
+        op,
+        Unary [
+            Neg Abs Sqrt Cbrt Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Asinh Acosh Atanh
+            Floor Ceil Round Sign Not
+        ],
+        op => each1::<K>(a, out, lanes, |a| K::unary(op, a)),
+        Unary::Powi(n) => power::<K>(n, a, out, lanes)
+    );
+}
+
+/// Small powers have a loop each, so that the multiplications stand in it in a row.
+#[inline(always)]
+fn power<K: Kind>(n: i32, a: &K::Block, out: &mut K::Block, lanes: usize) {
+    match n {
+        2 => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(2), a)),
+        3 => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(3), a)),
+        4 => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(4), a)),
+        -1 => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(-1), a)),
+        _ => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(n), a)),
+    }
+}
+
+#[inline(always)]
+fn binary<K: Kind>(op: Binary, a: &K::Block, b: &K::Block, out: &mut K::Block, lanes: usize) {
+    apart!(
+        op,
+        Binary [Add Sub Mul Div Min Max Pow Atan2 Hypot Mod Less LessEqual Equal NotEqual And],
+        op => each2::<K>(a, b, out, lanes, |a, b| K::binary(op, a, b)),
+        Binary::Or => each2::<K>(a, b, out, lanes, |a, b| K::binary(Binary::Or, a, b))
+    );
+}
+
+/// For the operations of [`super::compile::has_number_form`].
+#[inline(always)]
+fn with_right<K: Kind>(op: Binary, a: &K::Block, number: f64, out: &mut K::Block, lanes: usize) {
+    let b = K::constant(number);
+    apart!(
+        op,
+        Binary [Add Sub Mul Div Min Max Less],
+        op => each1::<K>(a, out, lanes, |a| K::binary(op, a, b)),
+        _ => each1::<K>(a, out, lanes, |a| K::binary(Binary::LessEqual, a, b))
+    );
+}
+
+/// For the operations of [`super::compile::has_number_form`].
+#[inline(always)]
+fn with_left<K: Kind>(op: Binary, number: f64, b: &K::Block, out: &mut K::Block, lanes: usize) {
+    let a = K::constant(number);
+    apart!(
+        op,
+        Binary [Add Sub Mul Div Min Max Less],
+        op => each1::<K>(b, out, lanes, |b| K::binary(op, a, b)),
+        _ => each1::<K>(b, out, lanes, |b| K::binary(Binary::LessEqual, a, b))
+    );
+}
+
+#[inline(always)]
+fn extreme<K: Kind>(op: Binary, a: &K::Block, b: &K::Block, out: &mut K::Block, lanes: usize) {
+    if op == Binary::Min {
+        each2::<K>(a, b, out, lanes, |a, b| K::binary(Binary::Min, a, b));
+    } else {
+        each2::<K>(a, b, out, lanes, |a, b| K::binary(Binary::Max, a, b));
+    }
+}
+
+#[inline(always)]
+fn ternary<K: Kind>(op: Ternary, [a, b, c]: [&K::Block; 3], out: &mut K::Block, lanes: usize) {
+    apart!(
+        op,
+        Ternary [Select Union Intersection UnionSmooth],
+        op => for i in 0..lanes.min(K::LANES) {
+            K::set(out, i, K::ternary(op, K::get(a, i), K::get(b, i), K::get(c, i)));
+        },
+        Ternary::IntersectionSmooth => for i in 0..lanes.min(K::LANES) {
+            K::set(out, i, K::ternary(Ternary::IntersectionSmooth, K::get(a, i), K::get(b, i), K::get(c, i)));
+        }
+    );
+}
+
+#[inline(always)]
+fn join<K: Kind>(op: Ternary, a: &K::Block, b: &K::Block, number: f64, out: &mut K::Block, lanes: usize) {
+    let c = K::constant(number);
+    apart!(
+        op,
+        Ternary [Union Intersection UnionSmooth],
+        op => each2::<K>(a, b, out, lanes, |a, b| K::ternary(op, a, b, c)),
+        _ => each2::<K>(a, b, out, lanes, |a, b| K::ternary(Ternary::IntersectionSmooth, a, b, c))
+    );
+}

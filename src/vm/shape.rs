@@ -1,0 +1,25 @@
+//! A program seen as an object of a space: which inputs are axes, and what the others are fixed at. Computes nothing.
+
+use std::sync::Arc;
+
+use super::program::Program;
+
+/// What surfaces and pictures take: an object in a space of `dimension` axes.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// Its first `dimension` inputs are the axes of the space.
+    pub program: Arc<Program>,
+    /// Number of axes.
+    pub dimension: usize,
+    /// One value for each remaining input (time and so on).
+    pub fixed: Vec<f64>,
+}
+
+impl Shape {
+    /// An object of the space of the program's first `dimension` inputs, the rest fixed.
+    #[must_use]
+    pub fn new(program: Program, dimension: usize, fixed: Vec<f64>) -> Self {
+        debug_assert_eq!(program.inputs().len(), dimension + fixed.len());
+        Self { program: Arc::new(program), dimension, fixed }
+    }
+}
