@@ -61,7 +61,8 @@ impl<W: Write> Encoder<W> {
                 (own.indices(image), Some(own.colours.concat()))
             }
         };
-        let frame = gif::Frame { delay: self.delay, width, height, palette, buffer: buffer.into(), ..gif::Frame::default() };
+        let frame =
+            gif::Frame { delay: self.delay, width, height, palette, buffer: buffer.into(), ..gif::Frame::default() };
         self.gif.write_frame(&frame).map_err(failed)
     }
 }

@@ -45,7 +45,8 @@ pub fn write(field: &Field<'_>, encoding: Encoding, out: &mut impl Write) -> io:
         Samples::Bytes(all) => all.len(),
         Samples::Singles(all) => all.len(),
     };
-    let fits = field.size.iter().product::<usize>() == count && field.origin.len() == axes && field.spacing.len() == axes;
+    let fits =
+        field.size.iter().product::<usize>() == count && field.origin.len() == axes && field.spacing.len() == axes;
     if !fits || !(1..=3).contains(&axes) {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "the samples do not fit the grid"));
     }

@@ -79,8 +79,5 @@ impl Frames<'_> {
 }
 
 fn hull(a: Space, b: Space) -> Space {
-    Space {
-        lo: std::array::from_fn(|k| a.lo[k].min(b.lo[k])),
-        hi: std::array::from_fn(|k| a.hi[k].max(b.hi[k])),
-    }
+    Space { lo: std::array::from_fn(|k| a.lo[k].min(b.lo[k])), hi: std::array::from_fn(|k| a.hi[k].max(b.hi[k])) }
 }

@@ -2,7 +2,7 @@
 
 use super::canvas::{Area, Canvas, LARGEST, Pen};
 use super::image::Image;
-use super::text::{self, Across, CAPITAL, Lettering, Upright};
+use super::text::{self, Across, Lettering, Upright};
 
 /// Paper, ink and grid of all plots.
 pub const PAPER: [u8; 4] = [255, 255, 255, 255];
@@ -211,6 +211,14 @@ impl Plot {
         [across.clamp(-1e5, 1e5) as f32, up.clamp(-1e5, 1e5) as f32]
     }
 
+    /// The point at a pixel's middle.
+    #[must_use]
+    pub fn point(&self, column: usize, row: usize) -> [f64; 2] {
+        let across = (column as f64 + 0.5 - f64::from(self.area.left)) / f64::from(self.area.width());
+        let up = (f64::from(self.area.bottom) - row as f64 - 0.5) / f64::from(self.area.height());
+        [self.x.lo + across * (self.x.hi - self.x.lo), self.y.lo + up * (self.y.hi - self.y.lo)]
+    }
+
     /// Grid lines, to be drawn before the data.
     pub fn grid(&self, canvas: &mut Canvas) {
         let pen = Pen::solid(GRID, self.look.thin);
@@ -321,10 +329,4 @@ pub fn around(image: &Image, x: &Axis, y: &Axis, title: &str) -> Option<Image> {
     let x_ticks = sideways_ticks(x, area.width(), look);
     Plot { x: x.clone(), y: y.clone(), area, look, x_ticks, y_ticks }.frame(&mut canvas, &surround);
     Some(canvas.image())
-}
-
-/// The height that a line of text takes, capitals and the gap to the next.
-#[must_use]
-pub fn line_height(look: Look) -> f32 {
-    look.text * (CAPITAL + 0.6)
 }

@@ -46,7 +46,8 @@ impl View {
     /// A view by its name in any case, or `azimuth,elevation` in degrees (perspective).
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
-        if let Some(&(_, azimuth, elevation)) = Self::NAMES.iter().find(|(known, ..)| known.eq_ignore_ascii_case(name)) {
+        if let Some(&(_, azimuth, elevation)) = Self::NAMES.iter().find(|(known, ..)| known.eq_ignore_ascii_case(name))
+        {
             let (azimuth, elevation) = (azimuth * FRAC_PI_2, elevation * FRAC_PI_2);
             return Some(Self { azimuth, elevation, projection: Projection::Orthographic });
         }
@@ -161,11 +162,8 @@ fn central(corners: &[[f64; 3]; 8], aspect: f64, angle: f64) -> Framed {
     let (lo, hi) = extent(corners);
     // A box without extent still needs an eye before it.
     let least = lo[2] - 1e-3 * (hi[2] - lo[2]).max(hi[0] - lo[0]).max(hi[1] - lo[1]);
-    let eye = [
-        0.5 * (sides[0][0] - sides[0][1]),
-        0.5 * (sides[1][0] - sides[1][1]),
-        distance(0).min(distance(1)).min(least),
-    ];
+    let eye =
+        [0.5 * (sides[0][0] - sides[0][1]), 0.5 * (sides[1][0] - sides[1][1]), distance(0).min(distance(1)).min(least)];
     Framed { eye, base: [0.0; 2], growth }
 }
 

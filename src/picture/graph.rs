@@ -4,6 +4,9 @@
 use super::axes::{Axis, Look, PAPER, Plot, Surround};
 use super::canvas::{Area, Canvas, Pen};
 use super::image::Image;
+use crate::interrupt::{Cancelled, Interrupt};
+use crate::surface::sampler::{Counters, Sampler};
+use crate::vm::Shape;
 
 /// Values of the function at several places: the second slice takes one value for each of the first; NaN where undefined.
 pub type Function<'a> = dyn FnMut(&[f64], &mut [f64]) + 'a;
@@ -61,6 +64,30 @@ fn quiet(samples: &[[f64; 2]], pole: bool) -> [f64; 2] {
     let Some(last) = values.len().checked_sub(1) else { return [0., 0.] };
     let at = |part: f64| values[(part * last as f64).round() as usize];
     if pole { [at(0.05), at(0.95)] } else { [at(0.), at(1.)] }
+}
+
+/// Follows a shape of one axis, as [`follow`] does a function; also tells what it cost.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+///
+/// # Panics
+/// If the shape has another number of axes.
+pub fn of(
+    shape: &Shape,
+    lo: f64,
+    hi: f64,
+    count: usize,
+    interrupt: &Interrupt,
+) -> Result<(Curve, Counters), Cancelled> {
+    assert_eq!(shape.dimension, 1, "a graph has one axis");
+    let mut sampler = Sampler::new(shape);
+    let curve = follow(lo, hi, count, &mut |xs, ys| {
+        // Once cancelled, what is left of the work costs nothing.
+        if interrupt.is_cancelled() { ys.fill(f64::NAN) } else { sampler.values(&shape.program, &[xs], ys) }
+    });
+    interrupt.tick()?;
+    Ok((curve, sampler.take_counters()))
 }
 
 /// Infinities are drawn as the largest numbers: beyond every plot, and still of their sign.

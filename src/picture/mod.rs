@@ -7,14 +7,18 @@ pub mod animation;
 pub mod axes;
 pub mod camera;
 pub mod canvas;
+pub mod contours;
 pub mod extent;
 pub mod graph;
 pub mod image;
+pub mod isolines;
+pub mod legend;
 pub mod palette;
 pub mod plot;
 pub mod raycast;
 pub mod rays;
 pub mod shade;
+pub mod sheet;
 pub mod text;
 
 pub use camera::{Camera, Projection, View};

@@ -78,7 +78,12 @@ pub fn plot(
     match fill {
         Fill::Mono => {
             let (signs, counters) = signs(shape, &Pixels { window, size }, interrupt)?;
-            Ok(finish(size, counters, signs.iter().any(|&s| s), |i, j| if signs[j * size[0] + i] { [0; 3] } else { [255; 3] }))
+            Ok(finish(
+                size,
+                counters,
+                signs.iter().any(|&s| s),
+                |i, j| if signs[j * size[0] + i] { [0; 3] } else { [255; 3] },
+            ))
         }
         Fill::Solid(palette) => {
             let fine = fineness(size);

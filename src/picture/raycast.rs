@@ -33,7 +33,12 @@ pub struct Style {
 
 impl Default for Style {
     fn default() -> Self {
-        Self { size: [800, 600], supersample: 2, palette: Palette::Plain, background: [[0xfb, 0xfc, 0xfd], [0xdf, 0xe4, 0xea]] }
+        Self {
+            size: [800, 600],
+            supersample: 2,
+            palette: Palette::Plain,
+            background: [[0xfb, 0xfc, 0xfd], [0xdf, 0xe4, 0xea]],
+        }
     }
 }
 

@@ -99,7 +99,8 @@ impl Frustum {
         let footprint = 2.0 * height / scene.rays[1] as f64;
         // A cell is as deep as two rays are apart, so that the smallest boxes are about cubes.
         let cells = ((far - near) / (2.0 * footprint)).ceil().clamp(1.0, 16_384.0) as usize;
-        let size = (0..3).map(|k| lo[k].abs().max(hi[k].abs()).max(scene.camera.eye[k].abs())).fold(far.abs(), f64::max);
+        let size =
+            (0..3).map(|k| lo[k].abs().max(hi[k].abs()).max(scene.camera.eye[k].abs())).fold(far.abs(), f64::max);
         Self { scene, near, far, cells: cells.next_multiple_of(LEAF_DEPTH), slack: 1e-13 * size }
     }
 
@@ -145,7 +146,8 @@ impl Lattice for Frustum {
             }
         }
         for (k, out) in out.iter_mut().enumerate() {
-            *out = Interval::new((least[k] - self.slack).clamp(lo[k], hi[k]), (most[k] + self.slack).clamp(lo[k], hi[k]));
+            *out =
+                Interval::new((least[k] - self.slack).clamp(lo[k], hi[k]), (most[k] + self.slack).clamp(lo[k], hi[k]));
         }
     }
 }

@@ -51,7 +51,8 @@ impl Lights {
         let facing = |light: [f64; 3]| dot(n, light).max(0.0) as f32;
         let (key, fill) = (facing(self.key), facing(self.fill));
         let sky = (0.5 + 0.5 * n[2]) as f32;
-        let gleam = if key > 0.0 { GLEAM * libm::pow(dot(n, self.halfway).max(0.0), GLEAM_EXPONENT) as f32 } else { 0.0 };
+        let gleam =
+            if key > 0.0 { GLEAM * libm::pow(dot(n, self.halfway).max(0.0), GLEAM_EXPONENT) as f32 } else { 0.0 };
         let body = if hit.cap { self.cut } else { self.solid };
         std::array::from_fn(|k| {
             let around = GROUND[k] + sky * (SKY[k] - GROUND[k]);

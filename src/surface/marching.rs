@@ -56,7 +56,9 @@ impl fmt::Display for SurfaceError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Cancelled => write!(f, "cancelled"),
-            Self::Dimension(shape, grid) => write!(f, "the object has {shape} free coordinates where {grid} are needed"),
+            Self::Dimension(shape, grid) => {
+                write!(f, "the object has {shape} free coordinates where {grid} are needed")
+            }
             Self::TooManyVertices => write!(f, "the mesh has more than four thousand million vertices"),
             Self::Contradiction([x, y, z]) => write!(f, "the signs near ({x}, {y}, {z}) contradict each other"),
         }

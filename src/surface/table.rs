@@ -125,9 +125,7 @@ fn triangulate(polygon: &[Edge], out: &mut Vec<[Edge; 3]>) {
     for span in 2..n {
         for i in 0..n - span {
             let j = i + span;
-            best[i][j] = (i + 1..j)
-                .filter_map(|k| Some((best[i][k]?.0 + best[k][j]?.0 + chord(i, j)?, k)))
-                .min();
+            best[i][j] = (i + 1..j).filter_map(|k| Some((best[i][k]?.0 + best[k][j]?.0 + chord(i, j)?, k))).min();
         }
     }
     let mut open = vec![(0, n - 1)];

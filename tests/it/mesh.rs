@@ -187,7 +187,11 @@ pub const KNOWN: &[Case] = &[
         name: "Steinmetz solid",
         half: [1.1; 3],
         field: |x, y, z| {
-            (1.0 - (x.squared() + y.squared())).ternary(Ternary::Intersection, &(1.0 - (x.squared() + z.squared())), 1.0)
+            (1.0 - (x.squared() + y.squared())).ternary(
+                Ternary::Intersection,
+                &(1.0 - (x.squared() + z.squared())),
+                1.0,
+            )
         },
         euler: Some(2),
         volume: Some(16.0 / 3.0),
@@ -195,7 +199,9 @@ pub const KNOWN: &[Case] = &[
     Case {
         name: "capped cylinder",
         half: [1.0; 3],
-        field: |x, y, z| (0.49 - (x.squared() + y.squared())).ternary(Ternary::Intersection, &(0.64 - z.squared()), 0.0),
+        field: |x, y, z| {
+            (0.49 - (x.squared() + y.squared())).ternary(Ternary::Intersection, &(0.64 - z.squared()), 0.0)
+        },
         euler: Some(2),
         volume: Some(PI * 0.49 * 1.6),
     },
@@ -218,7 +224,13 @@ pub const KNOWN: &[Case] = &[
         euler: Some(2),
         volume: Some(4.0 / 3.0 * PI),
     },
-    Case { name: "the whole space", half: [1.0, 0.5, 2.0], field: |x, _, _| x.constant(0.0), euler: Some(2), volume: Some(8.0) },
+    Case {
+        name: "the whole space",
+        half: [1.0, 0.5, 2.0],
+        field: |x, _, _| x.constant(0.0),
+        euler: Some(2),
+        volume: Some(8.0),
+    },
     Case { name: "half of the space", half: [1.0; 3], field: |_, _, z| z, euler: Some(2), volume: Some(4.0) },
     Case {
         name: "ball cut by all six faces",
@@ -249,8 +261,20 @@ pub const KNOWN: &[Case] = &[
 
 /// Hard ones: exact zeros at sample points, sheets, undefined regions, touching parts.
 const HARD: &[Case] = &[
-    Case { name: "quadrants that touch along a line", half: [1.0; 3], field: |x, y, _| x * y, euler: None, volume: None },
-    Case { name: "octants that touch in a point", half: [1.0; 3], field: |x, y, z| x * y * z, euler: None, volume: None },
+    Case {
+        name: "quadrants that touch along a line",
+        half: [1.0; 3],
+        field: |x, y, _| x * y,
+        euler: None,
+        volume: None,
+    },
+    Case {
+        name: "octants that touch in a point",
+        half: [1.0; 3],
+        field: |x, y, z| x * y * z,
+        euler: None,
+        volume: None,
+    },
     Case { name: "a sheet without thickness", half: [1.0; 3], field: |x, _, _| -x.abs(), euler: Some(2), volume: None },
     Case {
         name: "a point",
@@ -276,7 +300,13 @@ const HARD: &[Case] = &[
         euler: None,
         volume: None,
     },
-    Case { name: "gyroid cut by the space", half: [7.0; 3], field: |x, y, z| gyroid(&x, &y, &z), euler: None, volume: None },
+    Case {
+        name: "gyroid cut by the space",
+        half: [7.0; 3],
+        field: |x, y, z| gyroid(&x, &y, &z),
+        euler: None,
+        volume: None,
+    },
     Case {
         name: "undefined in half of the space",
         half: [1.0; 3],
@@ -436,7 +466,8 @@ fn stl_reads_back_as_the_same_closed_mesh() {
             normals: vec![[0.0, 0.0, 1.0]; read.vertices.len()],
             triangles: read.faces.iter().map(|f| f.vertices.map(|v| v as u32)).collect(),
         };
-        let (ours, theirs) = (check(&mesh).expect("closed"), check(&again).unwrap_or_else(|f| panic!("{}: {f}", case.name)));
+        let (ours, theirs) =
+            (check(&mesh).expect("closed"), check(&again).unwrap_or_else(|f| panic!("{}: {f}", case.name)));
         assert_eq!(ours, theirs, "{}", case.name);
     }
 }

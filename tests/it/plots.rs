@@ -1,8 +1,14 @@
 //! Plots: what is found on a function, and that it is drawn where it belongs.
 
-use yont::picture::axes::{Axis, number, ticks};
+use yont::picture::axes::{Axis, around, number, ticks};
+use yont::picture::contours::{Map, draw, levels};
 use yont::picture::graph::{Curve, Graph, follow, stack};
 use yont::picture::image::Image;
+use yont::picture::isolines::Field;
+use yont::picture::legend::{Legend, beside};
+use yont::picture::palette::Palette;
+use yont::picture::plot::Window;
+use yont::picture::sheet::{Heading, SheetError, compose};
 
 /// Where `YONT_LOOK` names a folder, the pictures of these tests are left there to be looked at.
 fn look(image: &Image, name: &str) {
@@ -192,4 +198,160 @@ fn any_function_can_be_drawn() {
     graph("floor", 0., 6., |x| 3. - x.floor());
     graph("wild", -1., 1., |x| (1. / x).sin());
     graph("small", -2e-7, 2e-7, |x| 3e8 * x * x + 1e-6);
+}
+
+fn window(lo: f64, hi: f64) -> Window {
+    Window { lo: [lo, lo], hi: [hi, hi] }
+}
+
+fn field(window: Window, n: usize, f: impl Fn(f64, f64) -> f64) -> Field {
+    Field::sample(window, n, n, &mut |x, y, out| (0..out.len()).for_each(|i| out[i] = f(x[i], y[i])))
+}
+
+/// [P95] Fig. 3: the intersection of two half-planes by the R-function with alpha = 0.
+fn corner(x: f64, y: f64) -> f64 {
+    x + y - (x * x + y * y).sqrt()
+}
+
+#[test]
+fn isolines_lie_on_their_level_and_end_only_at_the_edge() {
+    let area = window(-2., 2.);
+    for (name, f, levels) in [
+        ("corner", corner as fn(f64, f64) -> f64, vec![-2., -1., 0., 0.5]),
+        ("circles", |x, y| 1.5 - x * x - y * y, vec![-1., 0., 1.]),
+        ("saddle", |x, y| x * y, vec![-0.5, 0., 0.5]),
+        ("waves", |x: f64, y: f64| (3. * x).sin() * (3. * y).cos(), vec![-0.3, 0.1, 0.6]),
+    ] {
+        let field = field(area, 161, f);
+        for level in levels {
+            let lines = field.lines(level);
+            assert!(!lines.is_empty(), "{name} {level}");
+            for line in lines {
+                let worst = line.points.iter().map(|p| (f(p[0], p[1]) - level).abs()).fold(0., f64::max);
+                assert!(worst < 4e-3, "{name} {level}: off by {worst}");
+                let at_edge = |p: &[f64; 2]| p.iter().any(|c| c.abs() > 2. - 1e-12);
+                let ends = [&line.points[0], &line.points[line.points.len() - 1]];
+                assert!(line.closed || ends.iter().all(|p| at_edge(p)), "{name} {level}: {ends:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn isolines_of_circles_are_one_closed_line_of_the_right_length() {
+    let field = field(window(-2., 2.), 201, |x, y| 4. - x * x - y * y);
+    for radius in [0.5, 1., 1.7_f64] {
+        let lines = field.lines(4. - radius * radius);
+        let [circle] = lines.as_slice() else { panic!("{} lines", lines.len()) };
+        let next = circle.points.iter().cycle().skip(1);
+        let length: f64 = circle.points.iter().zip(next).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).sum();
+        assert!(circle.closed && (length / (std::f64::consts::TAU * radius) - 1.).abs() < 1e-3, "{length}");
+    }
+}
+
+#[test]
+fn isolines_keep_away_from_undefined_samples() {
+    let field = field(window(-1., 1.), 41, |x, y| if x > 0.3 { f64::NAN } else { y });
+    let lines = field.lines(0.01);
+    assert_eq!(lines.len(), 1);
+    assert!(!lines[0].closed && lines[0].points.iter().all(|p| p[0] <= 0.3 + 1e-12));
+    assert!(field.value([0.5, 0.]).is_nan() && field.value([9., 0.]).is_nan());
+    assert!((field.value([-0.513, 0.247]) - 0.247).abs() < 1e-12);
+}
+
+fn map(title: &str, levels: Vec<f64>, palette: Option<Palette>) -> Map {
+    Map { title: title.into(), names: ["x1".into(), "x2".into()], value: "f".into(), levels, palette, labels: true }
+}
+
+#[test]
+fn the_map_of_fig_3_has_a_bold_corner_at_the_origin() {
+    let field = field(window(-2., 2.), 301, corner);
+    let steps = levels(&field, 12);
+    assert!(steps.contains(&0.), "{steps:?}");
+    let lines = draw(&field, &map("x1 ≥ 0 and x2 ≥ 0, α = 0", steps.clone(), None), 600, 600).unwrap();
+    look(&lines, "fig3-lines");
+    let filled = draw(&field, &map("x1 ≥ 0 and x2 ≥ 0, α = 0", steps, Some(Palette::Diverging)), 720, 600).unwrap();
+    look(&filled, "fig3-map");
+    assert_eq!([filled.width, filled.height, lines.width, lines.height], [720, 600, 600, 600]);
+    // The positive quarter of the map is warm, the rest cold; the lines' picture is dark along the bold corner's two sides.
+    let warm = filled.rgba.as_chunks::<4>().0.iter().filter(|p| p[0] > p[2].saturating_add(25)).count();
+    let cold = filled.rgba.as_chunks::<4>().0.iter().filter(|p| p[2] > p[0].saturating_add(25)).count();
+    assert!(warm > 20_000 && cold > 2 * warm, "{warm} {cold}");
+}
+
+#[test]
+fn maps_of_anything_are_drawn() {
+    let wild = field(Window { lo: [-3., -1.], hi: [3., 1.] }, 200, |x, y| {
+        (x * x + y * y).ln() * (5. * x).sin() + (0.9 - y).sqrt()
+    });
+    let picture =
+        draw(&wild, &map("a wide window with an undefined strip", levels(&wild, 8), Some(Palette::Viridis)), 800, 400);
+    look(&picture.unwrap(), "wide");
+    let spots = field(window(-3., 3.), 240, |x, y| {
+        [(-1., -1., 1.), (1.2, 0.4, 0.7), (-0.5, 1.6, -0.8)]
+            .iter()
+            .map(|(a, b, h)| h * (-((x - a).powi(2) + (y - b).powi(2))).exp())
+            .sum()
+    });
+    look(&draw(&spots, &map("hills", levels(&spots, 12), Some(Palette::Diverging)), 640, 480).unwrap(), "hills");
+    for f in [|_, _| f64::NAN, |_, _| 3., |_, _| f64::INFINITY, |x: f64, y: f64| 1. / (x * y), |x: f64, _| 1e300 * x] {
+        let field = field(window(-1., 1.), 9, f);
+        for palette in [None, Some(Palette::Diverging)] {
+            let image = draw(&field, &map("any", levels(&field, 5), palette), 64, 48).unwrap();
+            assert_eq!(image.rgba.len(), 4 * 64 * 48);
+        }
+    }
+}
+
+#[test]
+fn a_legend_shows_both_ends_of_its_palette() {
+    let picture = Image::new(320, 240, [255, 255, 255]);
+    let legend = Legend::new("x6", -1.5, 2.5, Palette::Spectrum);
+    let image = beside(&picture, &legend).unwrap();
+    look(&image, "legend");
+    let has = |t: f64| {
+        let want = Palette::Spectrum.colour(t);
+        image.rgba.as_chunks::<4>().0.iter().any(|p| (0..3).all(|k| p[k].abs_diff(want[k]) <= 6))
+    };
+    assert!(image.width > 320 && image.height == 240 && has(0.) && has(0.5) && has(1.));
+    let banded = Legend { levels: vec![0., 1.], ..legend };
+    assert_eq!(banded.colour(0.1), banded.colour(0.9));
+    assert_ne!(banded.colour(0.9), banded.colour(1.1));
+}
+
+#[test]
+fn a_sheet_has_each_picture_in_its_row_and_column() {
+    let heading = |name: &str, values: &[f64]| Heading { name: name.into(), values: values.to_vec() };
+    let (columns, rows) = (heading("x5", &[-1., 0., 0.5, 1.]), heading("x6", &[10., 20., 30.]));
+    let colour = |k: usize| [20 * k as u8, 255 - 20 * k as u8, 130];
+    let images: Vec<Image> = (0..12).map(|k| Image::new(160, 120, colour(k))).collect();
+    let sheet = compose(&images, &columns, &rows, "a sheet").unwrap();
+    look(&sheet, "sheet");
+    let mut last = (0, 0);
+    for (k, image) in images.iter().enumerate() {
+        let want = [colour(k)[0], colour(k)[1], 130, 255];
+        let at: Vec<usize> = (0..sheet.width * sheet.height).filter(|i| sheet.rgba[4 * i..4 * i + 4] == want).collect();
+        assert!(at.len() >= (image.width - 2) * (image.height - 2), "picture {k} is whole");
+        let first = (at[0] / sheet.width, at[0] % sheet.width);
+        assert!(if k % 4 == 0 { first.0 >= last.0 } else { first.0 == last.0 && first.1 > last.1 }, "picture {k}");
+        last = first;
+    }
+    let none = Heading::default();
+    assert_eq!(compose(&images, &none, &none, ""), Err(SheetError::Count { wanted: 1, given: 12 }));
+    assert!(compose(&images[..1], &none, &none, "").is_ok());
+    let many = heading("x5", &(0..12).map(f64::from).collect::<Vec<_>>());
+    let large = vec![Image::new(4000, 1, [0; 3]); 12];
+    assert!(matches!(compose(&large, &many, &none, ""), Err(SheetError::TooLarge { .. })));
+}
+
+#[test]
+fn axes_stand_around_a_picture_pixel_for_pixel() {
+    let mut picture = Image::new(300, 200, [200, 220, 240]);
+    picture.set(0, 0, [255, 0, 0]);
+    picture.set(150, 100, [1, 2, 3]);
+    let image = around(&picture, &Axis::new("x1", -3., 3.), &Axis::new("x2", -2., 2.), "around").unwrap();
+    look(&image, "around");
+    let spot = (0..image.width * image.height).find(|i| image.rgba[4 * i..4 * i + 3] == [1, 2, 3]).unwrap();
+    let (column, row) = (spot % image.width - 150, spot / image.width - 100);
+    assert!((1..199).all(|j| (1..299).all(|i| image.pixel(column + i, row + j) == picture.pixel(i, j))));
 }
