@@ -5,7 +5,7 @@ use super::axes::{Axis, GRID, INK, Look, PAPER, Plot, Surround, number, ticks};
 use super::canvas::{Area, Canvas, Pen};
 use super::image::Image;
 use super::isolines::{Field, Isoline};
-use super::legend::Legend;
+use super::legend::{Key, Legend, member_colour};
 use super::palette::Palette;
 use super::text::{self, Across, Lettering, Upright};
 
@@ -50,7 +50,11 @@ pub fn draw(field: &Field, map: &Map, width: usize, height: usize) -> Option<Ima
         None => plot.grid(&mut canvas),
     }
     canvas.clip(Some(plot.area));
-    lines(&mut canvas, field, map, &plot);
+    let mut taken = Vec::new();
+    for &level in &map.levels {
+        let stroke = stroke(map, legend.as_ref(), level, look);
+        contour(&mut canvas, &field.lines(level), &plot, &stroke, &mut taken);
+    }
     canvas.clip(None);
     plot.frame(&mut canvas, &surround);
     if let Some(legend) = &legend {
@@ -59,17 +63,18 @@ pub fn draw(field: &Field, map: &Map, width: usize, height: usize) -> Option<Ima
     Some(canvas.image())
 }
 
-/// The colours of the bands. Where 0 is a level the two signs get the palette's two halves, as a diverging palette wants it.
+/// The colours of the bands. A diverging palette has its middle at 0, so that the two signs get its two halves.
 fn legend(field: &Field, map: &Map, palette: Palette) -> Legend {
     let [mut lo, mut hi] = field.quiet_range().unwrap_or([0., 1.]);
-    if let (Some(&first), Some(&last)) = (map.levels.first(), map.levels.last()) {
-        let step = if map.levels.len() > 1 { (last - first) / (map.levels.len() - 1) as f64 } else { 0. };
+    if let [first, .., last] = map.levels[..] {
+        let step = (last - first) / (map.levels.len() - 1) as f64;
         (lo, hi) = (first - step, last + step);
     }
-    if palette == Palette::Diverging && lo < 0. && hi > 0. {
-        (lo, hi) = (lo.min(-hi), hi.max(-lo));
-    }
-    Legend { axis: Axis::new(map.value.clone(), lo, hi), palette, levels: map.levels.clone() }
+    let plain = Legend::new(map.value.clone(), lo, hi, palette);
+    let (lo, hi) = (plain.axis.lo, plain.axis.hi);
+    let both = palette == Palette::Diverging && lo < 0. && hi > 0.;
+    let ends = if both { [lo.min(-hi), hi.max(-lo)] } else { [lo, hi] };
+    Legend { ends, levels: map.levels.clone(), ..plain }
 }
 
 /// Colours the plot's pixels by the value at their middles; undefined ones stay hatched paper.
@@ -87,35 +92,79 @@ fn fill(canvas: &mut Canvas, field: &Field, plot: &Plot, legend: &Legend) {
     }
 }
 
-/// All lines, the zero line bold, then values where they find room.
-fn lines(canvas: &mut Canvas, field: &Field, map: &Map, plot: &Plot) {
-    let look = plot.look;
-    let mut taken: Vec<([f32; 2], f32)> = Vec::new();
-    for &level in &map.levels {
-        let zero = level == 0.;
-        let colour = if map.palette.is_some() && !zero { [26, 26, 26, 190] } else { INK };
-        let width = if zero { look.thick * 1.25 } else { look.thin * 1.1 };
-        let dash = (level < 0. && map.palette.is_none()).then_some([look.text * 0.4, look.text * 0.25]);
-        let pen = Pen { colour, width, dash };
-        let label = number(level);
-        let size = look.text * 0.82;
-        let room = text::width(&label, size) + size * 0.7;
-        for line in field.lines(level) {
-            let pixels = Track::new(&line, plot);
-            let place = if map.labels { pixels.place(room, &taken) } else { None };
-            let Some(place) = place else {
-                canvas.line(&pixels.points, line.closed, &pen);
-                continue;
-            };
-            for part in pixels.around(place, room) {
-                canvas.line(&part, false, &pen);
-            }
-            let (middle, turn) = pixels.middle(place, room);
-            taken.push((middle, room));
-            let lettering = Lettering { size, colour: INK, across: Across::Middle, upright: Upright::Middle, turn };
-            canvas.text(&label, middle, &lettering);
+/// How the lines of one level are drawn, and what is written into them.
+struct Stroke {
+    pen: Pen,
+    label: String,
+    ink: [u8; 4],
+}
+
+/// The zero line is bold; negative levels are dashed where no colour tells the sign.
+fn stroke(map: &Map, legend: Option<&Legend>, level: f64, look: Look) -> Stroke {
+    let zero = level == 0.;
+    // On dark colours ink could not be read.
+    let dark = legend.is_some_and(|legend| lightness(legend.colour(level)) < 90.);
+    let ink = if dark { PAPER } else { INK };
+    let colour = if zero { INK } else { [ink[0], ink[1], ink[2], if legend.is_some() { 180 } else { 255 }] };
+    let width = if zero { look.thick * 1.25 } else { look.thin * 1.1 };
+    let dash = (level < 0. && legend.is_none()).then_some([look.text * 0.4, look.text * 0.25]);
+    let label = if map.labels { number(level) } else { String::new() };
+    Stroke { pen: Pen { colour, width, dash }, label, ink }
+}
+
+fn lightness([r, g, b]: [u8; 3]) -> f64 {
+    0.3 * f64::from(r) + 0.6 * f64::from(g) + 0.1 * f64::from(b)
+}
+
+/// Where something is written already, and how long it is.
+type Taken = Vec<([f32; 2], f32)>;
+
+/// The lines of one level, with its value in each that has room for it.
+fn contour(canvas: &mut Canvas, lines: &[Isoline], plot: &Plot, stroke: &Stroke, taken: &mut Taken) {
+    let size = plot.look.text * 0.88;
+    let room = text::width(&stroke.label, size) + size * 1.4;
+    for line in lines {
+        let track = Track::new(line, plot);
+        let place = if stroke.label.is_empty() { None } else { track.place(room, taken) };
+        let Some(place) = place else {
+            canvas.line(&track.points, line.closed, &stroke.pen);
+            continue;
+        };
+        for part in track.around(place, room) {
+            canvas.line(&part, false, &stroke.pen);
         }
+        let (middle, turn) = track.middle(place, room);
+        taken.push((middle, room));
+        let lettering = Lettering { size, colour: stroke.ink, across: Across::Middle, upright: Upright::Middle, turn };
+        canvas.text(&stroke.label, middle, &lettering);
     }
+}
+
+/// Draws the lines of one level of several fields over one window, each in its own colour with its name in a key: a group of sections.
+/// None if there is no field or no memory for the picture.
+#[must_use]
+pub fn group(members: &[(String, Field)], level: f64, map: &Map, width: usize, height: usize) -> Option<Image> {
+    let window = members.first()?.1.window;
+    let mut canvas = Canvas::new(width, height, PAPER)?;
+    let look = Look::of(width, height);
+    let entries = members.iter().enumerate().map(|(k, (name, _))| (name.clone(), member_colour(k))).collect();
+    let key = Key { entries };
+    let surround = Surround { title: map.title.clone(), equal: true, bare: false };
+    let right = width as f32 - key.width(look);
+    let room = Area { left: look.text * 0.4, top: 0., right, bottom: height as f32 };
+    let [x, y] = [0, 1].map(|d| Axis::new(map.names[d].clone(), window.lo[d], window.hi[d]));
+    let plot = Plot::within(room, x, y, look, &surround);
+    plot.grid(&mut canvas);
+    canvas.clip(Some(plot.area));
+    for (k, (_, field)) in members.iter().enumerate() {
+        let colour = member_colour(k);
+        let stroke = Stroke { pen: Pen::solid(colour, look.thick), label: String::new(), ink: colour };
+        contour(&mut canvas, &field.lines(level), &plot, &stroke, &mut Vec::new());
+    }
+    canvas.clip(None);
+    plot.frame(&mut canvas, &surround);
+    key.draw(&mut canvas, [plot.area.right + look.text, plot.area.top], look);
+    Some(canvas.image())
 }
 
 /// A line in pixels with the way run up to each of its points; a closed line ends where it began.
@@ -150,25 +199,31 @@ impl Track {
     }
 
     /// The start of the straightest stretch of length `room`, away from the ends and from what is written already.
-    fn place(&self, room: f32, taken: &[([f32; 2], f32)]) -> Option<f32> {
+    fn place(&self, room: f32, taken: &Taken) -> Option<f32> {
         let length = self.length();
         if self.points.len() < 3 || length < room * 2.5 {
             return None;
         }
-        let end = length - 1.25 * room;
-        let tries = (0..64).map(|k| room * 0.25 + (end - room * 0.25) * k as f32 / 63.);
+        let (first, last) = (0.25 * room, length - 1.25 * room);
+        let tries = (0..64).map(|k| first + (last - first) * k as f32 / 63.);
         let free = tries.filter(|&from| {
             let middle = self.middle(from, room).0;
             taken.iter().all(|&(other, width)| distance(middle, other) > 0.75 * (width + room))
         });
-        let bend = |from: f32| {
-            let chord = distance(self.at(from), self.at(from + room));
-            let off_middle = (2. * (from + 0.5 * room) / length - 1.).abs();
-            (1. - chord / room) + 0.004 * off_middle
+        let straightness = |from: f32, to: f32| {
+            let (from, to) = (from.max(0.), to.min(length));
+            1. - distance(self.at(from), self.at(to)) / (to - from)
         };
-        let best = free.min_by(|&a, &b| bend(a).total_cmp(&bend(b)))?;
+        // What lies just before and behind counts too, and among equals the one nearest to the middle is best.
+        let rank = |from: f32| {
+            let off_middle = (2. * (from + 0.5 * room) / length - 1.).abs();
+            straightness(from, from + room)
+                + 0.5 * straightness(from - 0.6 * room, from + 1.6 * room)
+                + 0.004 * off_middle
+        };
+        let best = free.min_by(|&a, &b| rank(a).total_cmp(&rank(b)))?;
         // Along a sharp turn a straight text would leave the line.
-        (bend(best) < 0.15).then_some(best)
+        (straightness(best, best + room) < 0.15).then_some(best)
     }
 
     /// Middle of the stretch and the text's turn in degrees, never upside down.

@@ -4,6 +4,7 @@
 use super::axes::{Axis, Look, PAPER, Plot, Surround};
 use super::canvas::{Area, Canvas, Pen};
 use super::image::Image;
+use super::legend::{Key, member_colour};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::Shape;
@@ -348,6 +349,33 @@ pub fn stack(graphs: &[Graph], x: &Axis, width: usize, height: usize) -> Option<
     Some(canvas.image())
 }
 
+/// Draws several curves over each other in one plot, each in its own colour with its name in a key: a group of sections. None if there
+/// is no curve or no memory for the picture.
+#[must_use]
+pub fn group(members: &[(String, Curve)], graph: &Graph, x: &Axis, width: usize, height: usize) -> Option<Image> {
+    let all = members.iter().map(|(_, curve)| curve.values);
+    let values = all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    let [lo, hi] = Graph { curve: Curve { values, ..Curve::default() }, ..graph.clone() }.value_range();
+    let mut canvas = Canvas::new(width, height, PAPER)?;
+    let look = Look::of(width, height);
+    let entries = members.iter().enumerate().map(|(k, (name, _))| (name.clone(), member_colour(k))).collect();
+    let key = Key { entries };
+    let surround = Surround { title: graph.title.clone(), ..Surround::default() };
+    let right = width as f32 - key.width(look);
+    let room = Area { left: look.text * 0.4, top: 0., right, bottom: height as f32 };
+    let plot = Plot::within(room, x.clone(), Axis::new(graph.name.clone(), lo, hi), look, &surround);
+    plot.grid(&mut canvas);
+    canvas.clip(Some(plot.area));
+    zero_line(&mut canvas, &plot);
+    for (k, (_, curve)) in members.iter().enumerate() {
+        runs(&mut canvas, &plot, curve, member_colour(k));
+    }
+    canvas.clip(None);
+    plot.frame(&mut canvas, &surround);
+    key.draw(&mut canvas, [plot.area.right + look.text, plot.area.top], look);
+    Some(canvas.image())
+}
+
 /// Grid, zero line, curve, and the part where f >= 0, inside the plot's area.
 fn draw(canvas: &mut Canvas, plot: &Plot, curve: &Curve) {
     let look = plot.look;
@@ -362,15 +390,8 @@ fn draw(canvas: &mut Canvas, plot: &Plot, curve: &Curve) {
             canvas.fill(&points, INSIDE);
         }
     }
-    let dash = Some([look.text * 0.45, look.text * 0.3]);
-    canvas.ruled([plot.area.left, zero], [plot.area.right, zero], &Pen { colour: ZERO, width: look.thin, dash });
-    for run in &curve.runs {
-        let points: Vec<[f32; 2]> = run.iter().map(|p| plot.at(p[0], p[1])).collect();
-        match points.as_slice() {
-            [point] => canvas.dot(*point, look.thick * 0.8, CURVE),
-            _ => canvas.line(&points, false, &Pen::solid(CURVE, look.thick)),
-        }
-    }
+    zero_line(canvas, plot);
+    runs(canvas, plot, curve, CURVE);
     for &[from, to] in &curve.inside {
         let ends = [plot.at(from, 0.), plot.at(to, 0.)];
         canvas.line(&ends, false, &Pen::solid(SEGMENT, look.thick * 1.5));
@@ -382,4 +403,22 @@ fn draw(canvas: &mut Canvas, plot: &Plot, curve: &Curve) {
         }
     }
     canvas.clip(None);
+}
+
+fn zero_line(canvas: &mut Canvas, plot: &Plot) {
+    let row = plot.at(plot.x.lo, 0.)[1];
+    let dash = Some([plot.look.text * 0.45, plot.look.text * 0.3]);
+    let pen = Pen { colour: ZERO, width: plot.look.thin, dash };
+    canvas.ruled([plot.area.left, row], [plot.area.right, row], &pen);
+}
+
+/// The runs of a curve; one of a single point is a dot.
+fn runs(canvas: &mut Canvas, plot: &Plot, curve: &Curve, colour: [u8; 4]) {
+    for run in &curve.runs {
+        let points: Vec<[f32; 2]> = run.iter().map(|p| plot.at(p[0], p[1])).collect();
+        match points.as_slice() {
+            [point] => canvas.dot(*point, plot.look.thick * 0.8, colour),
+            _ => canvas.line(&points, false, &Pen::solid(colour, plot.look.thick)),
+        }
+    }
 }

@@ -122,13 +122,16 @@ impl Field {
         (lo <= hi).then_some([lo, hi])
     }
 
-    /// The range of most values: without the hundredth part at either end, which poles may fill with any number.
+    /// The range of values worth showing: all, unless the hundredth part at either end, where poles may put any number, makes it more
+    /// than three times as wide.
     #[must_use]
     pub fn quiet_range(&self) -> Option<[f64; 2]> {
+        let [lowest, highest] = self.range()?;
         let mut values: Vec<f64> = self.values.iter().copied().filter(|v| v.is_finite()).collect();
-        let last = values.len().checked_sub(1)?;
+        let last = values.len() - 1;
         let mut at = |part: f64| *values.select_nth_unstable_by((part * last as f64) as usize, f64::total_cmp).1;
-        Some([at(0.01), at(0.99)])
+        let (lo, hi) = (at(0.01), at(0.99));
+        Some(if highest - lowest <= 3. * (hi - lo) { [lowest, highest] } else { [lo, hi] })
     }
 
     /// All lines of a level, in the order of the rows.

@@ -5,10 +5,11 @@ use yont::picture::contours::{Map, draw, levels};
 use yont::picture::graph::{Curve, Graph, follow, stack};
 use yont::picture::image::Image;
 use yont::picture::isolines::Field;
-use yont::picture::legend::{Legend, beside};
+use yont::picture::legend::{Legend, beside, member_colour};
 use yont::picture::palette::Palette;
 use yont::picture::plot::Window;
 use yont::picture::sheet::{Heading, SheetError, compose};
+use yont::picture::{contours, graph};
 
 /// Where `YONT_LOOK` names a folder, the pictures of these tests are left there to be looked at.
 fn look(image: &Image, name: &str) {
@@ -189,15 +190,15 @@ fn any_function_can_be_drawn() {
         let image = stack(&[graph], &Axis::new("x1", -1., 1.), 10, 10).unwrap();
         assert_eq!(image.rgba.len(), 400, "{name}");
     }
-    let graph = |name: &str, lo: f64, hi: f64, f: fn(f64) -> f64| {
+    let show = |name: &str, lo: f64, hi: f64, f: fn(f64) -> f64| {
         let graph = Graph { title: name.into(), name: "f".into(), curve: curve(lo, hi, f), range: None };
         look(&stack(&[graph], &Axis::new("x1", lo, hi), 640, 480).unwrap(), name);
     };
-    graph("tan", -6., 6., f64::tan);
-    graph("logarithm", -1., 5., f64::ln);
-    graph("floor", 0., 6., |x| 3. - x.floor());
-    graph("wild", -1., 1., |x| (1. / x).sin());
-    graph("small", -2e-7, 2e-7, |x| 3e8 * x * x + 1e-6);
+    show("tan", -6., 6., f64::tan);
+    show("logarithm", -1., 5., f64::ln);
+    show("floor", 0., 6., |x| 3. - x.floor());
+    show("wild", -1., 1., |x| (1. / x).sin());
+    show("small", -2e-7, 2e-7, |x| 3e8 * x * x + 1e-6);
 }
 
 fn window(lo: f64, hi: f64) -> Window {
@@ -266,17 +267,41 @@ fn map(title: &str, levels: Vec<f64>, palette: Option<Palette>) -> Map {
 #[test]
 fn the_map_of_fig_3_has_a_bold_corner_at_the_origin() {
     let field = field(window(-2., 2.), 301, corner);
-    let steps = levels(&field, 12);
+    let steps = levels(&field, 15);
     assert!(steps.contains(&0.), "{steps:?}");
     let lines = draw(&field, &map("x1 ≥ 0 and x2 ≥ 0, α = 0", steps.clone(), None), 600, 600).unwrap();
     look(&lines, "fig3-lines");
     let filled = draw(&field, &map("x1 ≥ 0 and x2 ≥ 0, α = 0", steps, Some(Palette::Diverging)), 720, 600).unwrap();
     look(&filled, "fig3-map");
+    look(&draw(&field, &map("large", levels(&field, 20), Some(Palette::Viridis)), 1600, 1200).unwrap(), "large");
+    look(&draw(&field, &map("small", levels(&field, 6), Some(Palette::Diverging)), 240, 180).unwrap(), "tiny");
     assert_eq!([filled.width, filled.height, lines.width, lines.height], [720, 600, 600, 600]);
     // The positive quarter of the map is warm, the rest cold; the lines' picture is dark along the bold corner's two sides.
-    let warm = filled.rgba.as_chunks::<4>().0.iter().filter(|p| p[0] > p[2].saturating_add(25)).count();
-    let cold = filled.rgba.as_chunks::<4>().0.iter().filter(|p| p[2] > p[0].saturating_add(25)).count();
+    let warm = filled.rgba.as_chunks::<4>().0.iter().filter(|p| p[0] > p[2].saturating_add(8)).count();
+    let cold = filled.rgba.as_chunks::<4>().0.iter().filter(|p| p[2] > p[0].saturating_add(8)).count();
     assert!(warm > 20_000 && cold > 2 * warm, "{warm} {cold}");
+}
+
+#[test]
+fn a_group_of_sections_is_told_apart_by_its_key() {
+    let sections =
+        |k: usize| field(window(-2., 2.), 101, move |x, y| 0.4 * (k + 1) as f64 - (x - 0.2 * k as f64).hypot(y));
+    let members: Vec<(String, Field)> =
+        (0..4).map(|k| (format!("x4 = {}", number(0.5 * k as f64)), sections(k))).collect();
+    let image = contours::group(&members, 0., &map("sections", vec![], None), 640, 480).unwrap();
+    look(&image, "sections");
+    let curves: Vec<(String, Curve)> =
+        (0..3).map(|k| (format!("x4 = {k}"), curve(-1., 1., move |x| (k as f64 + 1.) * x + 0.2 * k as f64))).collect();
+    let graph = Graph { title: "curves".into(), name: "gob_f".into(), ..Graph::default() };
+    let curves = graph::group(&curves, &graph, &Axis::new("x1", -1., 1.), 640, 480).unwrap();
+    look(&curves, "curves");
+    for (picture, count) in [(&image, 4), (&curves, 3)] {
+        for k in 0..8 {
+            let colour = member_colour(k);
+            let drawn = picture.rgba.as_chunks::<4>().0.iter().filter(|p| **p == colour).count();
+            assert_eq!(drawn > 100, k < count, "colour {k}: {drawn} pixels");
+        }
+    }
 }
 
 #[test]
