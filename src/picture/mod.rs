@@ -17,6 +17,7 @@ pub mod palette;
 pub mod plot;
 pub mod raycast;
 pub mod rays;
+mod search;
 pub mod shade;
 pub mod sheet;
 pub mod text;
