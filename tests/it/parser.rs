@@ -235,7 +235,10 @@ fn mutants_never_panic() {
             for label in &diagnostic.labels {
                 assert!(text.get(label.span.range()).is_some(), "{label:?} in {text:?}");
             }
-            yont::diagnostic::render::human(diagnostic, &sources, yont::diagnostic::render::Colour::Plain);
+            assert!(
+                !yont::diagnostic::render::human(diagnostic, &sources, yont::diagnostic::render::Colour::Plain)
+                    .is_empty()
+            );
         }
         let failed = found.statements.iter().any(|s| matches!(s.kind, StatementKind::Failed { .. }));
         assert!(!failed || found.diagnostics.iter().any(|d| d.is_error()), "a failure without a word: {text:?}");
@@ -308,22 +311,4 @@ fn formatted(text: &str) -> String {
     let mut sources = SourceMap::default();
     let id = sources.add("case", text);
     print::format(&sources, id, &Limits::default()).unwrap_or_else(|d| panic!("{d:?}\n{text}"))
-}
-
-#[test]
-fn explore_lines() {
-    let Ok(path) = std::env::var("EXPLORE_LINES") else { return };
-    for line in std::fs::read_to_string(path).unwrap().lines() {
-        let mut sources = SourceMap::default();
-        let id = sources.add("case", line);
-        let p = parse(&sources, id, &Limits::default(), Mode::Prompt);
-        eprintln!(
-            "=== {line}      -> {} {}",
-            dump::statements(&p.statements),
-            if p.incomplete { "INCOMPLETE" } else { "" }
-        );
-        for d in &p.diagnostics {
-            eprint!("{}", yont::diagnostic::render::human(d, &sources, yont::diagnostic::render::Colour::Plain));
-        }
-    }
 }
