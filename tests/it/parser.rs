@@ -312,3 +312,19 @@ fn formatted(text: &str) -> String {
     let id = sources.add("case", text);
     print::format(&sources, id, &Limits::default()).unwrap_or_else(|d| panic!("{d:?}\n{text}"))
 }
+
+/// A text that is wrong from end to end is refused as fast as it is read: messages do not cost the square of its length.
+#[test]
+fn wrong_from_end_to_end() {
+    for text in [
+        "a = 1\n".repeat(20_000),
+        ")".repeat(100_000),
+        "% ".repeat(100_000),
+        "BEGIN ; ".repeat(900),
+        "a = ;".repeat(50_000),
+    ] {
+        let found = parsed(&text, Mode::Script);
+        assert!(found.diagnostics.iter().any(|d| d.is_error()));
+        assert!(found.diagnostics.len() <= Limits::default().errors + 1, "{}", &text[..8]);
+    }
+}
