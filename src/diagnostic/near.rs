@@ -18,7 +18,7 @@ const SUGGESTIONS: usize = 3;
 /// What being preferred is worth, in slips; under one, so that it decides ties and near ties only.
 const PREFERENCE: f64 = 0.75;
 /// How far behind the best a suggestion may be.
-const BEHIND: f64 = 1.0;
+const BEHIND: f64 = 0.7;
 /// The prefixes that say what a name stands for, those of other dialects included.
 const PREFIXES: [&str; 9] = ["gob_", "pob_", "tr_", "rel_", "fn_", "p_", "g_", "r_", "t_"];
 

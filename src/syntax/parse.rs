@@ -144,7 +144,8 @@ impl<'t> Driver<'t> {
             return;
         }
         let place = self.place(chunk.start, chunk.end);
-        let diagnostics: Vec<_> = chunk.faults.iter().map(|fault| explain::fault(place, *fault)).collect();
+        let diagnostics: Vec<_> =
+            chunk.faults.iter().take(MENDINGS).map(|fault| explain::fault(place, *fault)).collect();
         self.parsed.diagnostics.extend(explain::gather(diagnostics));
         // What else is wrong in a block shows once the statements with the faults are out of the way.
         let mut mended = Mended::new(self.text, chunk);
@@ -195,6 +196,8 @@ impl<'t> Driver<'t> {
     /// Parses the statements of a chunk: one, or several where a `;` was forgotten.
     fn statements(&mut self, chunk: &Chunk) {
         let mut start = chunk.start;
+        // Each turn reads the rest again, so that a text without any `;` must not take as many turns as it has lines.
+        let mut told = 0;
         while let Err(stop) = self.one(chunk, start, chunk.end) {
             let place = self.place(start, chunk.end);
             let Stop::At(at) = stop else {
@@ -203,7 +206,8 @@ impl<'t> Driver<'t> {
                 return self.fail(chunk, start);
             };
             let next = explain::forgotten_semicolon(place, at);
-            let Some(next) = next.filter(|next| self.one(chunk, start, next.after).is_ok()) else {
+            told += 1;
+            let Some(next) = next.filter(|next| told <= MENDINGS && self.one(chunk, start, next.after).is_ok()) else {
                 return self.stuck(chunk, start, at);
             };
             let diagnostic = explain::missing_semicolon(self.place(start, chunk.end), next);
@@ -262,7 +266,7 @@ impl<'t> Driver<'t> {
     }
 }
 
-/// How many errors of one block are told, each of which parses the block again.
+/// How many errors of one statement or block are told, each of which reads it again.
 const MENDINGS: usize = 20;
 
 /// A copy of a statement in which what is wrong is blanked out, byte for byte, so that places stay what they are.

@@ -227,7 +227,7 @@ impl Printer<'_> {
     /// One statement as it is, several as a block; `guarded` means an ELSE follows that must not belong to the inner one.
     fn branch(&mut self, statements: &[Statement], whole: &Statement, guarded: bool) {
         match statements {
-            [one] if !(guarded && takes_else(one)) && !self.commented(one, whole) => self.statement(one),
+            [one] if (!guarded || !takes_else(one)) && !self.commented(one, whole) => self.statement(one),
             _ => self.block(statements, whole),
         }
     }
@@ -257,10 +257,10 @@ impl Printer<'_> {
 /// Whether an ELSE behind this statement would belong to it.
 fn takes_else(statement: &Statement) -> bool {
     match &statement.kind {
-        StatementKind::If { then, otherwise, .. } => match otherwise.as_deref() {
+        StatementKind::If { otherwise, .. } => match otherwise.as_deref() {
             None => true,
             Some([last]) => takes_else(last),
-            Some(_) => then.len() == 1 && takes_else(&then[0]),
+            Some(_) => false,
         },
         StatementKind::While { body, .. } | StatementKind::For { body, .. } => {
             matches!(body.as_slice(), [one] if takes_else(one))
@@ -269,13 +269,16 @@ fn takes_else(statement: &Statement) -> bool {
         | StatementKind::Element { value: e, .. }
         | StatementKind::Expression(e) => open_if(e),
         StatementKind::Print { items } => items.last().is_some_and(open_if),
-        StatementKind::Type { kind, .. } => match kind {
-            GeometricType::Constant(Some(e)) | GeometricType::Group(Some(e)) | GeometricType::Center(Some(e)) => {
-                open_if(e)
-            }
-            _ => false,
-        },
+        StatementKind::Type { kind, .. } => typed(kind).is_some_and(open_if),
         _ => false,
+    }
+}
+
+/// The expression of a geometric type that has one.
+fn typed(kind: &GeometricType) -> Option<&super::tree::Expr> {
+    match kind {
+        GeometricType::Constant(e) | GeometricType::Group(e) | GeometricType::Center(e) => e.as_ref(),
+        _ => None,
     }
 }
 

@@ -235,7 +235,10 @@ fn mutants_never_panic() {
             for label in &diagnostic.labels {
                 assert!(text.get(label.span.range()).is_some(), "{label:?} in {text:?}");
             }
-            yont::diagnostic::render::human(diagnostic, &sources, yont::diagnostic::render::Colour::Plain);
+            assert!(
+                !yont::diagnostic::render::human(diagnostic, &sources, yont::diagnostic::render::Colour::Plain)
+                    .is_empty()
+            );
         }
         let failed = found.statements.iter().any(|s| matches!(s.kind, StatementKind::Failed { .. }));
         assert!(!failed || found.diagnostics.iter().any(|d| d.is_error()), "a failure without a word: {text:?}");
@@ -310,20 +313,18 @@ fn formatted(text: &str) -> String {
     print::format(&sources, id, &Limits::default()).unwrap_or_else(|d| panic!("{d:?}\n{text}"))
 }
 
+/// A text that is wrong from end to end is refused as fast as it is read: messages do not cost the square of its length.
 #[test]
-fn explore_lines() {
-    let Ok(path) = std::env::var("EXPLORE_LINES") else { return };
-    for line in std::fs::read_to_string(path).unwrap().lines() {
-        let mut sources = SourceMap::default();
-        let id = sources.add("case", line);
-        let p = parse(&sources, id, &Limits::default(), Mode::Prompt);
-        eprintln!(
-            "=== {line}      -> {} {}",
-            dump::statements(&p.statements),
-            if p.incomplete { "INCOMPLETE" } else { "" }
-        );
-        for d in &p.diagnostics {
-            eprint!("{}", yont::diagnostic::render::human(d, &sources, yont::diagnostic::render::Colour::Plain));
-        }
+fn wrong_from_end_to_end() {
+    for text in [
+        "a = 1\n".repeat(20_000),
+        ")".repeat(100_000),
+        "% ".repeat(100_000),
+        "BEGIN ; ".repeat(900),
+        "a = ;".repeat(50_000),
+    ] {
+        let found = parsed(&text, Mode::Script);
+        assert!(found.diagnostics.iter().any(|d| d.is_error()));
+        assert!(found.diagnostics.len() <= Limits::default().errors + 1, "{}", &text[..8]);
     }
 }

@@ -24,7 +24,7 @@ impl Random {
 pub fn program(random: &mut Random) -> String {
     let mut g = Generator { random, out: String::new() };
     let count = g.random.below(4) + 1;
-    let depth = g.random.below(3);
+    let depth = g.random.below(7) / 2 % 3;
     for _ in 0..count {
         if g.random.chance(3) {
             let comment =
@@ -180,8 +180,11 @@ impl Generator<'_> {
                 self.word("IF");
                 self.expr(depth - 1);
                 self.word("THEN");
-                self.branch(depth - 1);
                 if self.random.chance(2) {
+                    self.branch(depth - 1);
+                } else {
+                    // In a block, so that no IF inside takes the ELSE.
+                    self.block(depth - 1);
                     let end = self.random.one(&["", ";", ";\n"]);
                     self.out.push_str(end);
                     self.word("ELSE");
