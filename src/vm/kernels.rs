@@ -235,3 +235,41 @@ fn join<K: Kind>(op: Ternary, a: &K::Block, b: &K::Block, number: f64, out: &mut
         out, lanes, i => K::ternary(THE, K::get(a, i), K::get(b, i), c)
     );
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::block::{Doubles, Points};
+    use super::{Kind, Store};
+    use crate::field::{Coordinate, Graph};
+    use crate::limits::Limits;
+    use crate::number::{Algebra, Binary, Unary};
+    use crate::vm::{Demand, Program};
+
+    /// Where the blocks of a store lie, sorted: they change places, and nothing else.
+    fn places<K: Kind>(store: &Store<K>) -> Vec<*const K::Block> {
+        let mut all: Vec<*const K::Block> = store.slots.iter().chain([&store.spare]).map(|b| &raw const **b).collect();
+        all.sort_unstable();
+        all
+    }
+
+    #[test]
+    fn a_warm_store_allocates_nothing() {
+        let mut graph = Graph::new();
+        let x = graph.coordinate(Coordinate(1));
+        let sine = graph.unary(Unary::Sin, x);
+        let root = graph.binary(Binary::Mul, sine, x);
+        let program = Program::compile(&graph, root, &[Coordinate(1)], Demand::Value, &Limits::default())
+            .expect("two operations");
+        let mut store = Store::<Doubles>::new();
+        store.reserve(&program);
+        let warm = places(&store);
+        for _ in 0..5 {
+            store.reserve(&program);
+            Doubles::run(&program, &mut store, 128, &mut ());
+        }
+        assert_eq!(places(&store), warm);
+        let mut out = [0.0; 300];
+        Points::<f64>::new().eval(&program, &[&[0.5; 300]], &mut out);
+        assert!(out.iter().all(|v| *v == 0.5 * Unary::Sin.real(0.5)));
+    }
+}

@@ -195,7 +195,7 @@ fn compiled_values_equal_the_walk_to_the_bit() {
 #[test]
 fn intervals_hold_the_values_and_specialised_programs_give_them() {
     let mut random = Random(2);
-    let (mut evaluator, mut lanes) = (Boxes::new(), vec![Interval::EMPTY; 8]);
+    let (mut evaluator, mut lanes) = (Boxes::new(), vec![Interval::EMPTY; 4]);
     let mut shorter = [0, 0];
     for case in 0..100_000 {
         let mut graph = Graph::new();
