@@ -1,8 +1,10 @@
 //! One suite for every evaluator: compiled programs, in every form, against the slow walk over the graph. Random expressions from a
 //! seeded generator of its own, so that every run is the same.
 
+use std::sync::Arc;
+
 use yont::field::expand::{expand, reachable};
-use yont::field::{Coordinate, Graph, NodeId};
+use yont::field::{Coordinate, Graph, NodeId, SharedLeaf};
 use yont::limits::Limits;
 use yont::number::{Algebra, Binary, Dual, Duals, Interval, Intervals, Leaf, Reals, Ternary, Unary};
 use yont::vm::{Boxes, Demand, Gradients, Points, Program, reference};
@@ -26,6 +28,32 @@ impl Random {
     }
     fn pick<T: Copy>(&mut self, of: &[T]) -> T {
         of[self.below(of.len())]
+    }
+}
+
+/// Data for the tests: the product of two arguments.
+#[derive(Debug)]
+pub struct Product;
+
+impl Leaf for Product {
+    fn fingerprint(&self) -> u128 {
+        7
+    }
+    fn name(&self) -> &str {
+        "product"
+    }
+    fn arity(&self) -> usize {
+        2
+    }
+    fn value(&self, at: &[f64]) -> f64 {
+        at[0] * at[1]
+    }
+    fn gradient(&self, at: &[f64], slope: &mut [f64]) -> f64 {
+        slope.copy_from_slice(&[at[1], at[0]]);
+        at[0] * at[1]
+    }
+    fn bounds(&self, over: &[Interval]) -> Interval {
+        Binary::Mul.interval(over[0], over[1])
     }
 }
 
@@ -100,6 +128,7 @@ fn expression(random: &mut Random, graph: &mut Graph, size: usize) -> NodeId {
             4..=6 => graph.binary(random.pick(BINARY), a, b),
             7..=9 => graph.binary(random.pick(&[Binary::Min, Binary::Max, Binary::Add, Binary::Sub]), a, b),
             10 | 11 => graph.unary(Unary::Neg, a),
+            12 if random.below(4) == 0 => graph.leaf(SharedLeaf(Arc::new(Product)), &[a, b]),
             12 => graph.ternary(Ternary::Select, a, b, c),
             13 | 14 => {
                 let smooth = random.below(4) == 0;
@@ -298,7 +327,7 @@ fn blocks_of_both_precisions_and_gradients_equal_the_walk() {
                 reference::eval(&mut Singles, plain, plain_root, &[0, 1, 2].map(|i| (INPUTS[i], at[i] as f32)));
             assert!(same(f64::from(rough[k]), f64::from(expected)), "case {case}: {} instead of {expected}", rough[k]);
             let variables = [0, 1, 2].map(|i| (INPUTS[i], Dual::<3>::variable(at[i], i)));
-            let expected = reference::eval(&mut Duals::<3>, &graph, root, &variables);
+            let expected = reference::eval(&mut Duals::<3>, plain, plain_root, &variables);
             assert!(same(again[k], expected.value), "case {case}");
             for (slope, by) in slopes.iter().zip([2, 0, 1, 2]) {
                 assert!(same(slope[k], expected.slope[by]), "case {case}: {} instead of {expected:?}", slope[k]);
