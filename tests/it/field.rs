@@ -1,7 +1,10 @@
 //! Expression graphs: what building folds, the derivative as an expression, maps replaced.
 
+use std::sync::Arc;
+
+use crate::conformance::Product;
 use yont::field::expand::expand;
-use yont::field::{Coordinate, Graph, Node, NodeId, derivative, operations};
+use yont::field::{Coordinate, Graph, Node, NodeId, SharedLeaf, derivative, operations};
 use yont::number::{Algebra, Binary, Dual, Duals, Real, Reals, Ternary, Unary};
 use yont::vm::reference;
 
@@ -122,6 +125,8 @@ fn samples(g: &mut Graph) -> Vec<(String, NodeId)> {
             all.push((format!("{op:?} with a varying parameter"), node));
         }
     }
+    let data = g.leaf(SharedLeaf(Arc::new(Product)), &[inner, y]);
+    all.push(("data".into(), g.unary(Unary::Sin, data)));
     let map = g.map(inner, &[(X, y), (Y, inner)]);
     let outer = g.unary(Unary::Sin, map);
     all.push(("a map".into(), g.map(outer, &[(X, inner)])));
