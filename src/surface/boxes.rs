@@ -77,6 +77,9 @@ pub trait Visitor: Send {
 
     /// An undecided leaf, with the program that is right inside its bounds (as good as the shape's own there, perhaps shorter).
     fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler);
+
+    /// The task is done: a visitor may turn what it gathered into something smaller.
+    fn finish(&mut self, _sampler: &mut Sampler) {}
 }
 
 /// What a walk brings back.
@@ -113,6 +116,7 @@ where
                     State::Decided(inside) => walker.decide(&mut own, &block, inside),
                     State::Open(program) => walker.descend(0, &block, &program, &mut own)?,
                 }
+                own.finish(&mut walker.sampler);
                 Ok((own, walker.take_counters()))
             },
         )

@@ -1,0 +1,328 @@
+//! A 2-D object as a filled picture: pixel (i, j) from the top left is the point `lo[0] + (i+1/2) (hi[0]-lo[0]) / W`,
+//! `hi[1] - (j+1/2) (hi[1]-lo[1]) / H`. Draws no axes and writes no files.
+
+use rayon::prelude::*;
+
+use super::image::Image;
+use super::palette::{Palette, encode, linear};
+use crate::interrupt::{Cancelled, Interrupt};
+use crate::number::Interval;
+use crate::surface::boxes::{Block, Lattice, Visitor, walk};
+use crate::surface::sampler::{Counters, Sampler};
+use crate::vm::{Program, Shape};
+
+/// The part of the plane that is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// The coordinates of the lower left corner.
+    pub lo: [f64; 2],
+    /// The coordinates of the upper right corner.
+    pub hi: [f64; 2],
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// Black where the pixel's middle is inside, white elsewhere: exact, without smoothing.
+    Mono,
+    /// The inside in colour with a line along the boundary, smoothed.
+    Solid(Palette),
+    /// Bands of values, those outside paler, with a line along the boundary. Needs the values themselves.
+    Bands(Palette),
+}
+
+impl Fill {
+    /// What a palette stands for in a plot.
+    #[must_use]
+    pub fn of(palette: Palette) -> Self {
+        match palette {
+            Palette::Mono => Self::Mono,
+            Palette::Plain => Self::Solid(palette),
+            other => Self::Bands(other),
+        }
+    }
+
+    /// Whether a program of [`crate::vm::Demand::Value`] is needed; else one of `Sign` does and is faster.
+    #[must_use]
+    pub fn needs_values(self) -> bool {
+        matches!(self, Self::Bands(_))
+    }
+}
+
+/// A plot and what it cost.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    /// The picture.
+    pub image: Image,
+    /// Evaluations, and points where the function was undefined.
+    pub counters: Counters,
+    /// Whether a sample is inside the object.
+    pub met: bool,
+}
+
+/// The picture of a shape with two axes.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+///
+/// # Panics
+/// If the shape has another number of axes.
+pub fn plot(
+    shape: &Shape,
+    window: Window,
+    size: [usize; 2],
+    fill: Fill,
+    interrupt: &Interrupt,
+) -> Result<Plot, Cancelled> {
+    assert_eq!(shape.dimension, 2, "a plot shows a space of two axes");
+    if size.contains(&0) {
+        return Ok(Plot { image: Image::new(size[0], size[1], [0; 3]), counters: Counters::default(), met: false });
+    }
+    match fill {
+        Fill::Mono => {
+            let (signs, counters) = signs(shape, &Pixels { window, size }, interrupt)?;
+            Ok(finish(
+                size,
+                counters,
+                signs.iter().any(|&s| s),
+                |i, j| if signs[j * size[0] + i] { [0; 3] } else { [255; 3] },
+            ))
+        }
+        Fill::Solid(palette) => {
+            let fine = fineness(size);
+            let pixels = Pixels { window, size: size.map(|n| n * fine) };
+            let (signs, counters) = signs(shape, &pixels, interrupt)?;
+            let paper = Paper { signs: &signs, size: pixels.size, fine };
+            let (inside, outside) = (palette.colour(0.5).map(linear), PAPER.map(linear));
+            let met = signs.iter().any(|&s| s);
+            Ok(finish(size, counters, met, |i, j| paper.pixel(i, j, |inner| if inner { inside } else { outside })))
+        }
+        Fill::Bands(palette) => bands(shape, window, size, palette, interrupt),
+    }
+}
+
+/// The colour of what is outside.
+const PAPER: [u8; 3] = [0xf7, 0xf8, 0xfa];
+/// The colour of the line along the boundary.
+const LINE: [u8; 3] = [0x1c, 0x2c, 0x44];
+
+/// Samples along each side of a pixel; one for pictures so large that nobody sees it and the samples would fill the memory.
+fn fineness(size: [usize; 2]) -> usize {
+    if size[0].saturating_mul(size[1]) <= 1 << 24 { 3 } else { 1 }
+}
+
+fn finish(size: [usize; 2], counters: Counters, met: bool, colour: impl Fn(usize, usize) -> [u8; 3] + Sync) -> Plot {
+    let mut image = Image::new(size[0], size[1], [0; 3]);
+    image.rgba.par_chunks_mut(4 * size[0].max(1)).enumerate().for_each(|(j, row)| {
+        for (i, pixel) in row.chunks_exact_mut(4).enumerate() {
+            pixel[..3].copy_from_slice(&colour(i, j));
+        }
+    });
+    Plot { image, counters, met }
+}
+
+/// Middles of pixels as sample points.
+struct Pixels {
+    window: Window,
+    size: [usize; 2],
+}
+
+impl Pixels {
+    fn column(&self, i: usize) -> f64 {
+        let Window { lo, hi } = self.window;
+        lo[0] + (i as f64 + 0.5) * (hi[0] - lo[0]) / self.size[0] as f64
+    }
+
+    fn row(&self, j: usize) -> f64 {
+        let Window { lo, hi } = self.window;
+        hi[1] - (j as f64 + 0.5) * (hi[1] - lo[1]) / self.size[1] as f64
+    }
+}
+
+impl Lattice for Pixels {
+    fn counts(&self) -> [usize; 3] {
+        [self.size[0], self.size[1], 1]
+    }
+
+    fn leaf(&self) -> [usize; 3] {
+        [16, 16, 1]
+    }
+
+    fn task(&self) -> [usize; 3] {
+        [64, 64, 1]
+    }
+
+    fn bounds(&self, block: &Block, out: &mut [Interval]) {
+        // Each step of the formulas is monotone in the index, rounding included, so the ends bound what lies between.
+        out[0] = Interval::new(self.column(block.from[0]), self.column(block.to[0] - 1));
+        out[1] = Interval::new(self.row(block.to[1] - 1), self.row(block.from[1]));
+    }
+}
+
+/// The signs of one task's samples, row by row.
+struct Signs<'a> {
+    pixels: &'a Pixels,
+    block: Block,
+    inside: Vec<bool>,
+    columns: [Vec<f64>; 2],
+    values: Vec<f64>,
+}
+
+impl Signs<'_> {
+    fn row(&mut self, block: &Block, j: usize) -> &mut [bool] {
+        let width = self.block.to[0] - self.block.from[0];
+        let start = (j - self.block.from[1]) * width + (block.from[0] - self.block.from[0]);
+        &mut self.inside[start..start + (block.to[0] - block.from[0])]
+    }
+}
+
+impl Visitor for Signs<'_> {
+    fn uniform(&mut self, block: &Block, inside: bool) {
+        if inside {
+            (block.from[1]..block.to[1]).for_each(|j| self.row(block, j).fill(true));
+        }
+    }
+
+    fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) {
+        self.columns.iter_mut().for_each(Vec::clear);
+        for j in block.from[1]..block.to[1] {
+            self.columns[0].extend((block.from[0]..block.to[0]).map(|i| self.pixels.column(i)));
+            let y = self.pixels.row(j);
+            self.columns[1].extend((block.from[0]..block.to[0]).map(|_| y));
+        }
+        let mut values = std::mem::take(&mut self.values);
+        values.clear();
+        values.resize(self.columns[0].len(), 0.0);
+        sampler.values(program, &[&self.columns[0], &self.columns[1]], &mut values);
+        for (j, values) in (block.from[1]..block.to[1]).zip(values.chunks_exact(block.to[0] - block.from[0])) {
+            self.row(block, j).iter_mut().zip(values).for_each(|(inside, &v)| *inside = v >= 0.0);
+        }
+        self.values = values;
+    }
+}
+
+/// Which samples are inside, row by row.
+fn signs(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<bool>, Counters), Cancelled> {
+    let visitor = |block: &Block| Signs {
+        pixels,
+        block: *block,
+        inside: vec![false; block.points() as usize],
+        columns: [Vec::new(), Vec::new()],
+        values: Vec::new(),
+    };
+    let done = walk(pixels, shape, visitor, interrupt)?;
+    let mut all = vec![false; pixels.size[0] * pixels.size[1]];
+    for task in done.visitors {
+        let width = task.block.to[0] - task.block.from[0];
+        for (j, row) in (task.block.from[1]..).zip(task.inside.chunks_exact(width.max(1))) {
+            all[j * pixels.size[0] + task.block.from[0]..][..width].copy_from_slice(row);
+        }
+    }
+    Ok((all, done.counters))
+}
+
+/// Samples that become smoothed pixels with a line where neighbours differ.
+struct Paper<'a> {
+    signs: &'a [bool],
+    size: [usize; 2],
+    fine: usize,
+}
+
+impl Paper<'_> {
+    fn pixel(&self, i: usize, j: usize, colour: impl Fn(bool) -> [f32; 3]) -> [u8; 3] {
+        let fine = self.fine;
+        let line = LINE.map(linear);
+        let mut sum = [0.0_f32; 3];
+        for y in j * fine..(j + 1) * fine {
+            for x in i * fine..(i + 1) * fine {
+                let light = if self.on_line(x, y) { line } else { colour(self.signs[y * self.size[0] + x]) };
+                (0..3).for_each(|k| sum[k] += light[k]);
+            }
+        }
+        sum.map(|v| encode(v / (fine * fine) as f32))
+    }
+
+    /// Whether a sample about half a line's width away is on the other side.
+    fn on_line(&self, x: usize, y: usize) -> bool {
+        const AROUND: [(isize, isize); 8] = [(2, 0), (-2, 0), (0, 2), (0, -2), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+        let here = self.signs[y * self.size[0] + x];
+        self.fine > 1
+            && AROUND.iter().any(|&(dx, dy)| {
+                let (Some(x), Some(y)) = (x.checked_add_signed(dx), y.checked_add_signed(dy)) else { return false };
+                x < self.size[0] && y < self.size[1] && self.signs[y * self.size[0] + x] != here
+            })
+    }
+}
+
+/// The values at all pixels, coloured in about a dozen bands of a round width.
+fn bands(
+    shape: &Shape,
+    window: Window,
+    size: [usize; 2],
+    palette: Palette,
+    interrupt: &Interrupt,
+) -> Result<Plot, Cancelled> {
+    let pixels = Pixels { window, size };
+    let (values, counters) = values(shape, &pixels, interrupt)?;
+    let signs: Vec<bool> = values.iter().map(|&v| v >= 0.0).collect();
+    let scale = Scale::new(&values);
+    let line = LINE.map(linear);
+    let met = signs.iter().any(|&s| s);
+    Ok(finish(size, counters, met, |i, j| {
+        let at = j * size[0] + i;
+        let right = i + 1 < size[0] && signs[at] != signs[at + 1];
+        let below = j + 1 < size[1] && signs[at] != signs[at + size[0]];
+        let light = if right || below { line } else { scale.light(values[at], palette) };
+        light.map(encode)
+    }))
+}
+
+fn values(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<f64>, Counters), Cancelled> {
+    let columns: Vec<f64> = (0..pixels.size[0]).map(|i| pixels.column(i)).collect();
+    let mut all = vec![0.0; pixels.size[0] * pixels.size[1]];
+    interrupt.begin(all.len() as u64);
+    let rows: Vec<Counters> = all
+        .par_chunks_mut(pixels.size[0].max(1))
+        .enumerate()
+        .map_init(
+            || (Sampler::new(shape), vec![0.0; columns.len()]),
+            |(sampler, rows), (j, out)| {
+                interrupt.tick()?;
+                rows.fill(pixels.row(j));
+                sampler.values(&shape.program, &[&columns, rows], out);
+                interrupt.advance(out.len() as u64);
+                Ok(sampler.take_counters())
+            },
+        )
+        .collect::<Result<_, Cancelled>>()?;
+    let mut counters = Counters::default();
+    rows.into_iter().for_each(|row| counters.add(row));
+    Ok((all, counters))
+}
+
+/// Bands of equal width that cover all values but the outermost hundredth on each side, which poles make huge.
+struct Scale {
+    first: f64,
+    step: f64,
+    count: f64,
+}
+
+impl Scale {
+    fn new(values: &[f64]) -> Self {
+        let mut finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+        finite.sort_by(f64::total_cmp);
+        let Some(last) = finite.len().checked_sub(1) else { return Self { first: 0.0, step: 1.0, count: 1.0 } };
+        let (lo, hi) = (finite[last / 100], finite[last - last / 100]);
+        let rough = ((hi - lo) / 12.0).max(f64::MIN_POSITIVE);
+        let power = libm::pow(10.0, libm::log10(rough).floor());
+        let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|&s| s >= rough).unwrap_or(rough);
+        let first = (lo / step).floor();
+        Self { first, step, count: ((hi / step).floor() - first + 1.0).max(1.0) }
+    }
+
+    fn light(&self, value: f64, palette: Palette) -> [f32; 3] {
+        let band = (value / self.step).floor() - self.first;
+        let colour = palette.colour((band + 0.5) / self.count).map(linear);
+        if value >= 0.0 { colour } else { colour.map(|v| v + 0.5 * (1.0 - v)) }
+    }
+}
