@@ -89,7 +89,7 @@ fn expression(random: &mut Random, graph: &mut Graph, size: usize) -> NodeId {
     let mut nodes: Vec<NodeId> = INPUTS.iter().map(|c| graph.coordinate(*c)).collect();
     for _ in 0..size {
         // The newest nodes are taken more often, so that the expression is deep as well as shared.
-        let mut operand = |random: &mut Random, graph: &mut Graph| match random.below(8) {
+        let operand = |random: &mut Random, graph: &mut Graph| match random.below(8) {
             0 => graph.constant(random.pick(NUMBERS)),
             1 | 2 => nodes[random.below(nodes.len())],
             _ => nodes[nodes.len() - 1 - random.below(nodes.len().min(4))],
@@ -195,7 +195,7 @@ fn compiled_values_equal_the_walk_to_the_bit() {
 #[test]
 fn intervals_hold_the_values_and_specialised_programs_give_them() {
     let mut random = Random(2);
-    let (mut evaluator, mut lanes) = (Boxes::new(), vec![Interval::EMPTY; 8]);
+    let (mut evaluator, mut lanes) = (Boxes::new(), vec![Interval::EMPTY; 4]);
     let mut shorter = [0, 0];
     for case in 0..100_000 {
         let mut graph = Graph::new();
@@ -312,7 +312,7 @@ fn blocks_of_both_precisions_and_gradients_equal_the_walk() {
 fn every_operation_in_every_form_equals_the_walk() {
     let mut random = Random(4);
     let points: [Vec<f64>; 3] = std::array::from_fn(|_| (0..MANY).map(|_| random.between(-2.0, 2.0)).collect());
-    let mut all = |build: &dyn Fn(&mut Graph, [NodeId; 3]) -> NodeId| {
+    let all = |build: &dyn Fn(&mut Graph, [NodeId; 3]) -> NodeId| {
         for form in 0..8 {
             let mut graph = Graph::new();
             let operand = |graph: &mut Graph, i: usize| match form >> i & 1 {
