@@ -14,6 +14,7 @@ pub mod raycast;
 pub mod rays;
 mod search;
 pub mod shade;
+pub mod shadow;
 
 pub use camera::{Camera, Projection, View};
 pub use image::Image;
