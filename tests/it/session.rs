@@ -103,7 +103,7 @@ fn print_shows_values_as_they_are_at_its_place() {
             _ => None,
         })
         .collect();
-    assert_eq!(printed, ["a is 1", "2 [2, 0.5]", "function of x1", "5"], "{}", messages(&outcome));
+    assert_eq!(printed, ["a is 1", "2 [2, 0.5]", "gob_x: object of x1", "5"], "{}", messages(&outcome));
 }
 
 #[test]
