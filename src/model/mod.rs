@@ -10,6 +10,7 @@ mod input;
 mod lower;
 mod names;
 mod objects;
+pub mod oracle;
 mod report;
 mod session;
 mod stack;
