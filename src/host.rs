@@ -10,6 +10,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::diagnostic::{Category, Diagnostic};
 
@@ -389,6 +390,18 @@ pub fn state_folder() -> Option<PathBuf> {
     etcetera::base_strategy::Xdg::new().ok()?.state_dir().map(|folder| folder.join("yont"))
 }
 
+/// The value of a variable of the environment; an empty one counts as none.
+#[must_use]
+pub fn variable(name: &str) -> Option<String> {
+    std::env::var_os(name)?.into_string().ok().filter(|value| !value.is_empty())
+}
+
+/// Nanoseconds since 1970, to tell files apart by their names. No result depends on it.
+#[must_use]
+pub fn nanoseconds() -> u128 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_nanos())
+}
+
 /// A file that only grows, one line at a time, each on the disk before the call returns. While it is open, no other
 /// process can open it as a [`Journal`].
 #[derive(Debug)]
@@ -443,4 +456,76 @@ pub fn append_line(path: &Path, line: &str) -> Result<(), FileError> {
     let mut file = OpenOptions::new().append(true).create(true).open(path).map_err(fail)?;
     // The line break in front keeps this line whole when a process died in the middle of the one before.
     file.write_all(format!("\n{line}\n").as_bytes()).and_then(|()| file.sync_data()).map_err(fail)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn failing(out: &mut dyn Write) -> io::Result<()> {
+        out.write_all(&[0; 100_000])?;
+        Err(io::Error::from(ErrorKind::StorageFull))
+    }
+
+    #[test]
+    fn a_failed_write_leaves_what_was_there_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.txt");
+        for old in [None, Some(b"old".to_vec())] {
+            if let Some(bytes) = &old {
+                Disk.write_whole(&path, &mut |out| out.write_all(bytes)).expect("room");
+            }
+            let error = Disk.write_whole(&path, &mut failing).expect_err("no room");
+            assert_eq!((error.reason, error.doing), (Reason::Full, Doing::Writing));
+            assert_eq!(Disk.read(&path, 10).ok(), old);
+            assert_eq!(Disk.list(folder.path()).len(), usize::from(old.is_some()));
+        }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_link_stays_and_its_file_is_replaced() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        fs::write(&file, "old").expect("room");
+        std::os::unix::fs::symlink(&file, &link).expect("room");
+        Disk.write_whole(&link, &mut |out| out.write_all(b"new")).expect("room");
+        assert!(fs::symlink_metadata(&link).expect("there").is_symlink());
+        assert_eq!(fs::read(&file).expect("there"), b"new");
+        assert_eq!(Disk.identity(&link), Disk.identity(&file));
+    }
+
+    #[test]
+    fn both_hosts_read_within_the_limit_and_say_why_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("four");
+        fs::write(&path, "1234").expect("room");
+        let memory = Memory::with(&[(path.to_str().expect("a plain name"), b"1234")]);
+        for host in [&Disk as &dyn Host, &memory] {
+            assert_eq!(host.read(&path, 4).as_deref(), Ok(b"1234".as_slice()));
+            assert_eq!(host.read(&path, 3).map_err(|e| e.reason), Err(Reason::TooLarge(3)));
+            assert_eq!(host.read(&folder.path().join("five"), 3).map_err(|e| e.reason), Err(Reason::Missing));
+            assert_eq!(host.list(folder.path()), ["four"]);
+        }
+        let small = Memory::default().room(3);
+        assert!(small.write_whole(&path, &mut |out| out.write_all(b"1234")).is_err_and(|e| e.reason == Reason::Full));
+        assert!(small.names().is_empty());
+    }
+
+    #[test]
+    fn paths_lie_beside_the_file_that_names_them() {
+        let from = |from: Option<&str>, path: &str| resolve(from.map(Path::new), Path::new(path));
+        assert_eq!(from(Some("d/a.geo"), "b.geo"), Path::new("d/b.geo"));
+        assert_eq!(from(Some("a.geo"), "b.geo"), Path::new("b.geo"));
+        assert_eq!(from(Some("d/a.geo"), "/b.geo"), Path::new("/b.geo"));
+        assert_eq!(from(None, "b.geo"), Path::new("b.geo"));
+        assert_eq!(Memory::default().identity(Path::new("./a/../b.geo")), Path::new("b.geo"));
+    }
+
+    #[test]
+    fn text_is_utf8_without_a_mark() {
+        let read = |bytes: &[u8]| text(Path::new("a"), bytes.to_vec());
+        assert_eq!(read(b"\xef\xbb\xbfa = 1;"), Ok("a = 1;".into()));
+        assert_eq!(read(b"ab\xff").map_err(|e| e.reason), Err(Reason::NotText(2)));
+    }
 }

@@ -12,6 +12,7 @@ mod names;
 mod objects;
 pub mod oracle;
 mod report;
+pub mod request;
 mod session;
 mod stack;
 mod state;

@@ -10,7 +10,7 @@ use crate::field::Graph;
 use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
-use crate::source::{SourceId, SourceMap};
+use crate::source::{SourceId, SourceMap, Span};
 use crate::syntax::Mode;
 use crate::syntax::tree::Name;
 
@@ -125,7 +125,8 @@ impl Session {
 
     /// `-D NAME=EXPR`: gives a name another definition, also in scripts that are still to come.
     pub fn set(&mut self, name: &str, expression: &str) -> Outcome {
-        let known = self.state.get(name).is_some() || self.state.readers(name).next().is_some() || self.undo.is_empty();
+        let first = self.undo.iter().all(|done| done.title.starts_with("-D "));
+        let known = first || self.state.get(name).is_some() || self.state.readers(name).next().is_some();
         let id = self.sources.add(format!("-D {name}"), format!("{name} = {expression};"));
         if !known {
             let span = crate::source::Span::new(id, 0, name.len());
@@ -313,6 +314,12 @@ impl Session {
             Some(Err(told)) => format!("{name}: fails, {}", told.title),
             None => format!("{name}: has no value"),
         }
+    }
+
+    /// Where a name is defined.
+    #[must_use]
+    pub fn place(&self, name: &str) -> Option<Span> {
+        self.state.get(name).map(|definition| definition.place())
     }
 
     /// The value of a name, or why it has none; nothing if it is unknown.

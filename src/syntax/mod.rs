@@ -2,6 +2,7 @@
 
 mod explain;
 mod parse;
+pub mod print;
 pub mod scan;
 mod split;
 pub mod tree;

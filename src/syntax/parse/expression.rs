@@ -36,8 +36,13 @@ impl<'t> Builder<'t> {
         Span::new(self.id, self.base + span.start(), self.base + span.end())
     }
 
+    /// A name as written; a coordinate always in lower case.
     pub(super) fn ident(&self, pair: &P<'_>) -> Ident {
-        Ident { name: Name::from(pair.as_str()), span: self.span(pair) }
+        let name = match pair.as_rule() {
+            Rule::coordinate => Name::from(pair.as_str().to_ascii_lowercase()),
+            _ => Name::from(pair.as_str()),
+        };
+        Ident { name, span: self.span(pair) }
     }
 
     fn error(&mut self, diagnostic: Diagnostic) {
@@ -213,7 +218,7 @@ impl<'t> Builder<'t> {
         Some((index, from, self.next_expr(&mut inner)))
     }
 
-    /// `e`, or `name = e`: a comparison if what follows the `=` compares or joins on, else a setting.
+    /// `e`, or `name = e`: a setting, but a comparison if what follows the `=` compares or joins on. `x4 = e` always sets.
     fn argument(&mut self, pair: P<'t>) -> Expr {
         let mut inner = pair.into_inner();
         if inner.peek().is_some_and(|p| p.as_rule() == Rule::expr) {
@@ -223,7 +228,8 @@ impl<'t> Builder<'t> {
             return self.next_expr(&mut inner);
         };
         let loose = |p: P<'t>| matches!(p.as_rule(), Rule::op_compare | Rule::op_or | Rule::op_and | Rule::not_);
-        if value.clone().into_inner().any(loose) {
+        let coordinate = head.as_rule() == Rule::coordinate;
+        if !coordinate && value.clone().into_inner().any(loose) {
             return self.flat([head, assign].into_iter().chain(value.into_inner()));
         }
         if let Some(digits) = coordinate_digits(head.as_str()) {

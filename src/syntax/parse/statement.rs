@@ -44,15 +44,14 @@ impl<'t> Builder<'t> {
         }
     }
 
+    /// A bare expression. One that begins like a definition but cannot be one is an error: `f(1) = 3`, `x1 = 3`.
     fn bare(&mut self, value: P<'t>) -> StatementKind {
         let value = self.value(value);
         if let ExprKind::Compare { first, rest } = &value.kind
             && let Some(at) = rest.first().map(|r| r.1)
             && self.text.get(at.range()) == Some("=")
-            && matches!(first.kind, ExprKind::Number(_) | ExprKind::Pi | ExprKind::Text(_))
         {
-            let what = format!("`{}`", &self.text[first.span.range()]);
-            self.diagnostics.push(explain::only_names(first.span, &what));
+            self.diagnostics.push(explain::no_definition(self.text, first));
         }
         StatementKind::Expression(value)
     }
@@ -278,8 +277,12 @@ fn single_expression(statements: &[Statement]) -> Option<Expr> {
     }
 }
 
-/// `IF c THEN a ELSE b WHERE ...`: the WHERE is of the whole, not of `b`.
+/// `IF c THEN a ELSE b WHERE ...`: the WHERE is of the whole, not of `b`; one of `a` is put in parentheses.
 fn if_expression(keyword: Span, condition: Expr, then: Expr, otherwise: Option<Expr>) -> Expr {
+    let then = match then.kind {
+        ExprKind::Where { .. } => Expr { span: then.span, kind: ExprKind::Paren(Box::new(then)) },
+        _ => then,
+    };
     let (otherwise, bindings) = match otherwise {
         Some(Expr { kind: ExprKind::Where { body, bindings }, .. }) => (Some(*body), bindings),
         other => (other, Vec::new()),

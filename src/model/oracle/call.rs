@@ -1,0 +1,197 @@
+//! Calls of the oracle: users' functions and the built-ins, by the standard library's arithmetic.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use super::expr::{each, maximum, minimum, number, pair};
+use super::{Answer, Beyond, Binding, Function, Later, Oracle, Point, Scope, Source, System, Value};
+use crate::syntax::tree::{Body, Expr, ExprKind, FoldOp, Ident};
+
+impl Oracle {
+    /// A call: of a user's function, of a built-in, or AT on a name without parameters.
+    pub(super) fn call(
+        &self,
+        callee: &Ident,
+        arguments: &[Expr],
+        scope: &Scope,
+        system: &System,
+        point: &Point,
+    ) -> Answer {
+        match self.binding(&callee.name, scope) {
+            Some(Binding::Function(f)) => self.apply(&f, arguments, scope, system, point),
+            found => {
+                let built_in = self.built_in(&callee.name.to_uppercase(), arguments, scope, system, point);
+                match (built_in, found) {
+                    (Err(Beyond::Unknown(_)), Some(object)) => {
+                        let mut to = match point {
+                            Some(p) => **p,
+                            None => return Err(Beyond::NeedsPoint),
+                        };
+                        for (i, e) in arguments.iter().enumerate() {
+                            to[i] = self.number(e, scope, system, point)?;
+                        }
+                        self.force(&object, &Some(Rc::new(to)))
+                    }
+                    (answer, _) => answer,
+                }
+            }
+        }
+    }
+
+    fn apply(&self, f: &Function, arguments: &[Expr], scope: &Scope, system: &System, point: &Point) -> Answer {
+        if f.parameters.len() != arguments.len() {
+            return Err(Beyond::Unknown(format!("arguments of {}", f.name)));
+        }
+        let mut inner = f.scope.clone();
+        for (parameter, e) in f.parameters.iter().zip(arguments) {
+            inner = inner.with(parameter, self.argument(e, scope, system));
+        }
+        match &*f.body {
+            Body::Expression(e) => self.expr(e, &inner, &f.system, point),
+            Body::Block(statements) => {
+                let end = self.run(statements, &inner, &f.system, point)?;
+                self.force(end.find(&f.name).unwrap_or(&Binding::Nothing), point)
+            }
+        }
+    }
+
+    /// An argument stands for an object, or for a function if it names one.
+    fn argument(&self, e: &Expr, scope: &Scope, system: &System) -> Binding {
+        if let ExprKind::Name(n) = &e.kind
+            && let Some(Binding::Function(f)) = self.binding(n, scope)
+        {
+            return Binding::Function(f);
+        }
+        let source = Source::Expr(Rc::new(e.clone()));
+        let later = Later { source, scope: scope.clone(), system: system.clone(), last: RefCell::new(None) };
+        Binding::Later(Rc::new(later))
+    }
+
+    fn built_in(&self, name: &str, arguments: &[Expr], scope: &Scope, system: &System, point: &Point) -> Answer {
+        let known = one(name).is_some() || two(name).is_some() || SPECIAL.contains(&name);
+        if !known {
+            return Err(Beyond::Unknown(format!("built-in {name}")));
+        }
+        let values = self.values(arguments, scope, system, point)?;
+        if let (Some(f), [a]) = (one(name), values.as_slice()) {
+            return each(a.clone(), &|a| Ok(f(a)));
+        }
+        if let (Some(f), [a, b]) = (two(name), values.as_slice()) {
+            return pair(a.clone(), b.clone(), &|a, b| Ok(f(a, b)));
+        }
+        self.special(name, values, scope, system, point)
+    }
+
+    fn special(&self, name: &str, values: Vec<Value>, scope: &Scope, system: &System, point: &Point) -> Answer {
+        let fold = match name {
+            "SUM" => Some(FoldOp::Sum),
+            "PRODUCT" => Some(FoldOp::Product),
+            "UNION" => Some(FoldOp::Union),
+            "INTERSECTION" => Some(FoldOp::Intersection),
+            "MINIMUM" | "MIN" => Some(FoldOp::Minimum),
+            "MAXIMUM" | "MAX" => Some(FoldOp::Maximum),
+            _ => None,
+        };
+        if let Some(op) = fold {
+            let list = match <[Value; 1]>::try_from(values) {
+                Ok([Value::Array(list)]) => list,
+                Ok([value]) => vec![value],
+                Err(values) => values,
+            };
+            return self.fold(op, list, system, scope, point);
+        }
+        match (name, values.as_slice()) {
+            ("CLAMP", [x, lo, hi]) => {
+                let above = pair(x.clone(), lo.clone(), &|a, b| Ok(maximum(a, b)))?;
+                pair(above, hi.clone(), &|a, b| Ok(minimum(a, b)))
+            }
+            ("LEN", [Value::Array(list)]) => Ok(Value::Number(list.len() as f64)),
+            ("JOIN", [Value::Array(a), Value::Array(b)]) => Ok(Value::Array(a.iter().chain(b).cloned().collect())),
+            ("DOT", [a, b]) => {
+                let products = pair(a.clone(), b.clone(), &|a, b| Ok(a * b))?;
+                Ok(Value::Number(numbers(products)?.into_iter().sum()))
+            }
+            ("NORM", [a]) => Ok(Value::Number(numbers(a.clone())?.into_iter().map(|a| a * a).sum::<f64>().sqrt())),
+            ("CROSS", [a, b]) => {
+                let (a, b) = (numbers(a.clone())?, numbers(b.clone())?);
+                let part = |i: usize, j: usize| Value::Number(a[i] * b[j] - a[j] * b[i]);
+                Ok(Value::Array(vec![part(1, 2), part(2, 0), part(0, 1)]))
+            }
+            _ => Err(Beyond::Unknown(format!("arguments of {name}"))),
+        }
+    }
+}
+
+const SPECIAL: &[&str] = &[
+    "SUM",
+    "PRODUCT",
+    "UNION",
+    "INTERSECTION",
+    "MINIMUM",
+    "MAXIMUM",
+    "MIN",
+    "MAX",
+    "CLAMP",
+    "LEN",
+    "JOIN",
+    "DOT",
+    "NORM",
+    "CROSS",
+];
+
+fn numbers(value: Value) -> Answer<Vec<f64>> {
+    match value {
+        Value::Array(list) => list.into_iter().map(number).collect(),
+        value => Ok(vec![number(value)?]),
+    }
+}
+
+fn one(name: &str) -> Option<fn(f64) -> f64> {
+    Some(match name {
+        "ABS" => f64::abs,
+        "SQRT" => f64::sqrt,
+        "CBRT" => f64::cbrt,
+        "EXP" => f64::exp,
+        "LOG" | "LN" => f64::ln,
+        "LOG10" => f64::log10,
+        "LOG2" => f64::log2,
+        "SIN" => f64::sin,
+        "COS" => f64::cos,
+        "TAN" => f64::tan,
+        "ASIN" => f64::asin,
+        "ACOS" => f64::acos,
+        "ATAN" => f64::atan,
+        "SINH" => f64::sinh,
+        "COSH" => f64::cosh,
+        "TANH" => f64::tanh,
+        "ASINH" => f64::asinh,
+        "ACOSH" => f64::acosh,
+        "ATANH" => f64::atanh,
+        "FLOOR" => f64::floor,
+        "CEIL" => f64::ceil,
+        "ROUND" => f64::round,
+        "FRAC" => |a| a - a.floor(),
+        "SIGN" => |a| {
+            if a > 0.0 {
+                1.0
+            } else if a < 0.0 {
+                -1.0
+            } else {
+                a
+            }
+        },
+        _ => return None,
+    })
+}
+
+fn two(name: &str) -> Option<fn(f64, f64) -> f64> {
+    Some(match name {
+        "ATAN2" => f64::atan2,
+        "HYPOT" => f64::hypot,
+        "POW" => f64::powf,
+        "MOD" => |a, b| a - b * (a / b).floor(),
+        "MIN" => minimum,
+        "MAX" => maximum,
+        _ => return None,
+    })
+}

@@ -1,0 +1,91 @@
+//! What can be asked of an object of a session: a mesh, a picture, frames, a sampled field, values, measures. One meaning for the command
+//! line and the prompt, which only read options and show results.
+
+mod ask;
+pub mod fields;
+mod make;
+pub mod measured;
+pub mod output;
+mod pictures;
+mod subject;
+
+pub use ask::{Info, info, measure, sample, write};
+pub use fields::Sampled;
+pub use make::Written;
+pub use measured::Measured;
+pub use output::{FORMATS, Format, Kind, Output, Target};
+
+use crate::field::Coordinate;
+
+/// How finely a boundary is searched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cells {
+    /// Cells along the longest side of the modelling space.
+    Along(usize),
+    /// Length of a cell's edge.
+    Length(f64),
+}
+
+/// Which object, which section of it, over which space, how finely.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// The object's name; the last `gob_` defined if none is given.
+    pub object: Option<String>,
+    /// Sections: `x4 = 0.5`. Wins over the script's types.
+    pub at: Vec<(Coordinate, f64)>,
+    /// Ranges of coordinates. Wins over the script's.
+    pub bounds: Vec<(Coordinate, f64, f64)>,
+    /// Cells; 128 along the longest side unless told.
+    pub cells: Cells,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self { object: None, at: Vec::new(), bounds: Vec::new(), cells: Cells::Along(128) }
+    }
+}
+
+/// How a picture is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureOptions {
+    /// Width and height in pixels; one that suits the object unless told.
+    pub size: Option<(usize, usize)>,
+    /// Samples along each side of a pixel.
+    pub supersample: usize,
+    /// A named view (`iso`, `front`, `top` ...), or azimuth and elevation in degrees: `30,20`.
+    pub view: String,
+    /// The palette's name.
+    pub palette: String,
+}
+
+impl Default for PictureOptions {
+    fn default() -> Self {
+        Self { size: None, supersample: 2, view: "default".into(), palette: "plain".into() }
+    }
+}
+
+/// How an animation or a numbered series runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timing {
+    /// Number of frames over T; the script's `x4_delta` unless told.
+    pub frames: Option<usize>,
+    /// Frames a second in an animation.
+    pub fps: f64,
+}
+
+impl Default for Timing {
+    fn default() -> Self {
+        Self { frames: None, fps: 4.0 }
+    }
+}
+
+/// Everything that decides an output's bytes besides its [`Output`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// Of what.
+    pub view: View,
+    /// If it is a picture.
+    pub picture: PictureOptions,
+    /// If it moves.
+    pub timing: Timing,
+}
