@@ -1,7 +1,5 @@
 //! What is known of a definition without evaluating it: its form, unknown names, calls in bodies, loops that cannot step.
 
-use std::sync::Arc;
-
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::builtins::{self, Meaning};
@@ -111,26 +109,24 @@ pub fn unknown(
         .collect()
 }
 
-/// One message for each name that new definitions read and nothing defines.
+/// One message for each name among those read that nothing defines.
 #[must_use]
-pub fn unknown_names(
+pub fn unknown_names<'r>(
     state: &State,
-    fresh: &[(Arc<Definition>, Names)],
+    reads: impl Iterator<Item = (&'r Name, Span)>,
     excused: &FxHashSet<Name>,
     note: bool,
 ) -> Vec<Diagnostic> {
     let mut order: Vec<&Name> = Vec::new();
     let mut places: FxHashMap<&Name, Vec<Span>> = FxHashMap::default();
-    for (definition, _) in fresh {
-        for (name, span) in &definition.reads {
-            if state.get(name).is_none() && !excused.contains(name) {
-                let places = places.entry(name).or_insert_with(|| {
-                    order.push(name);
-                    Vec::new()
-                });
-                if places.len() < 4 {
-                    places.push(*span);
-                }
+    for (name, span) in reads {
+        if state.get(name).is_none() && !excused.contains(name) {
+            let places = places.entry(name).or_insert_with(|| {
+                order.push(name);
+                Vec::new()
+            });
+            if places.len() < 4 {
+                places.push(span);
             }
         }
     }

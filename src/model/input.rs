@@ -7,7 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::Diagnostic;
 use crate::source::{SourceId, Span};
-use crate::syntax::tree::{Name, Statement, StatementKind};
+use crate::syntax::tree::{Expr, ExprKind, Name, Statement, StatementKind};
 use crate::syntax::{self, Mode};
 
 use super::check;
@@ -34,6 +34,8 @@ pub(super) struct Input<'s> {
     told: FxHashSet<(&'static str, String, Option<Span>)>,
     pending: Vec<Pending>,
     fresh: Vec<(Arc<Definition>, names::Names)>,
+    /// What statements read that are no definitions, for want of form.
+    loose: Vec<(Name, Span)>,
     /// Names of statements that failed.
     excused: FxHashSet<Name>,
     /// Names that this input defines, with the place of the first definition.
@@ -42,6 +44,8 @@ pub(super) struct Input<'s> {
     defined: FxHashMap<Name, (Span, Option<Span>)>,
     /// The systems in force where included files began.
     systems: Vec<SystemInForce>,
+    /// Turns that loops and calls have taken so far.
+    turns: usize,
 }
 
 /// What will be told of a statement if the input is accepted.
@@ -59,10 +63,12 @@ impl<'s> Input<'s> {
             told: FxHashSet::default(),
             pending: Vec::new(),
             fresh: Vec::new(),
+            loose: Vec::new(),
             excused: FxHashSet::default(),
             later: FxHashMap::default(),
             defined: FxHashMap::default(),
             systems: Vec::new(),
+            turns: 0,
         }
     }
 
@@ -250,6 +256,7 @@ impl<'s> Input<'s> {
             let own = check::defines(&statement);
             self.excused.extend(own);
             self.tell(told);
+            self.loose.extend(said.reads);
             return;
         }
         let Some(definition) = self.definition(statement, &said) else { return };
@@ -305,6 +312,7 @@ impl<'s> Input<'s> {
                 self.excused.insert(name.name.clone());
                 self.tell(told);
             }
+            self.loose.extend(said.reads.iter().filter(|(n, _)| !own.contains(n)).cloned());
             return None;
         }
         let pinned = outputs.len() == 1 && own.is_empty() && self.mode == Mode::Script;
@@ -361,7 +369,7 @@ impl<'s> Input<'s> {
         self.session.state.forget(definition.id);
         match kept {
             Some(Kept::One(value)) => {
-                let event = self.shown(&value, print);
+                let event = self.shown(&definition, &value, print);
                 self.pending.push(Pending::Event(event));
             }
             Some(Kept::Failed(told)) => self.tell(Arc::unwrap_or_clone(told)),
@@ -370,8 +378,13 @@ impl<'s> Input<'s> {
         Ok(())
     }
 
-    fn shown(&self, value: &Value, print: bool) -> Event {
-        let text = value.show(&self.session.graph);
+    fn shown(&self, definition: &Definition, value: &Value, print: bool) -> Event {
+        let text = match &definition.statement.kind {
+            StatementKind::Expression(Expr { kind: ExprKind::Name(name), .. }) if name.starts_with("gob_") => {
+                self.session.describe(name)
+            }
+            _ => value.show(&self.session.graph),
+        };
         if print {
             return Event::Printed(text);
         }
@@ -394,7 +407,9 @@ impl<'s> Input<'s> {
             later: &self.later,
         };
         let mut lower = Lower::new(world, &mut session.state, &mut session.graph, &mut session.files);
+        lower.turns = self.turns;
         let result = f(&mut lower);
+        self.turns = lower.turns;
         let (lowered, warnings) = (std::mem::take(&mut lower.lowered), std::mem::take(&mut lower.warnings));
         drop(lower);
         session.count_lowered(&lowered);
@@ -406,7 +421,8 @@ impl<'s> Input<'s> {
     fn check(&mut self) {
         let fresh = std::mem::take(&mut self.fresh);
         let note = self.mode == Mode::Prompt;
-        for told in check::unknown_names(&self.session.state, &fresh, &self.excused, note) {
+        let reads = fresh.iter().flat_map(|(d, _)| &d.reads).chain(&self.loose).map(|(name, span)| (name, *span));
+        for told in check::unknown_names(&self.session.state, reads, &self.excused, note) {
             self.tell(told);
         }
         for (definition, said) in &fresh {

@@ -23,6 +23,7 @@ impl Session {
             Some(name) => Name::from(name),
             None => self.last_object().ok_or_else(|| vec![no_object()])?,
         };
+        self.refresh(&name);
         let scalar = self.function(&name)?;
         let node = scalar.node(&mut self.graph);
         let uses = self.graph.coordinates(node);

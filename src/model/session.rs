@@ -133,9 +133,12 @@ impl Session {
             let told = super::errors::unknown_name(&self.state, name, &[span], false, &FxHashSet::default());
             return Outcome { accepted: false, diagnostics: vec![told], events: Vec::new() };
         }
+        self.again.clear();
         let outcome = self.transaction(id, Mode::Prompt, format!("-D {name}={expression}"));
-        if outcome.accepted {
+        if let (true, Some(done)) = (outcome.accepted, self.undo.last_mut()) {
+            let mark = self.state.mark();
             self.state.pin(name.into());
+            done.changes.extend(self.state.accept(&mark));
         }
         outcome
     }
@@ -245,6 +248,15 @@ impl Session {
         with_large_stack(|| Input::new(self, Mode::Prompt).settle());
     }
 
+    /// Finds a value that an interrupted step left out.
+    pub(super) fn refresh(&mut self, name: &str) {
+        let definition = self.state.get(name).filter(|d| self.state.kept(d.id).is_none()).cloned();
+        if let Some(definition) = definition {
+            self.state.add_stale(&definition);
+            self.settle();
+        }
+    }
+
     /// What a name reads and who depends on it; nothing if it is unknown and nobody reads it.
     #[must_use]
     pub fn deps(&self, name: &str) -> Option<Deps> {
@@ -325,7 +337,8 @@ impl Session {
     }
 }
 
-fn line(name: &str, value: &Value, graph: &Graph) -> String {
+/// One line about a name and its value.
+pub(super) fn line(name: &str, value: &Value, graph: &Graph) -> String {
     match value {
         Value::Scalar(Scalar::Node(id)) if name.starts_with("gob_") => {
             let names: Vec<String> = graph.coordinates(*id).iter().map(|c| c.to_string()).collect();

@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 /// Bytes of stack; only what is used is ever taken from the machine.
-const STACK: usize = 512 << 20;
+const STACK: usize = 256 << 20;
 
 /// Runs `work` on a large stack; on the caller's if the system gives no thread.
 pub fn with_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {

@@ -147,7 +147,8 @@ fn functions_have_their_own_scope() {
         ("f((gob/pob) g1, (real) a1,) = g1*a1; v = f(x1, 2);", &[4.0], 8.0),
         ("f((array) a) = SUM(a); v = f([1, 2]);", &[], 3.0),
         ("f((text) k) = INTERPOLATE(k, \"ramp.nrrd\", x1); v = f(\"trilinear\");", &[0.25], 0.25),
-        ("f(x) = x**2; v = f(3);", &[], 9.0),
+        ("f(n) = BEGIN g(t) = IF t <= 0 THEN 0 ELSE n + g(t - 1); f = g(4); END; v = f(5);", &[], 20.0),
+        ("f(t) = t**2; g = f; v = g(3);", &[], 9.0),
         ("b = 2; f(b) = b + c; c = b; v = f(10);", &[], 12.0),
     ]);
 }
@@ -249,6 +250,8 @@ fn what_can_be_known_is_an_error_at_once() {
         ("r1 = 4 IN [8, 1];", "empty-range"),
         ("x1 : CENTER = [0];", "bad-type"),
         ("f(p, p) = p;", "parameter-twice"),
+        ("gob_a = [1, 2];", "not-an-object: `gob_a`"),
+        ("i = 1; WHILE (i <= 8) DO s = s + j;", "loop-never-steps"),
     ]);
 }
 
@@ -273,7 +276,7 @@ fn as_printed_is_explained_error_by_error() {
         .replace("r_alpha = 1.\n", "r_alpha = 1.;\n")
         .replace("(r1**2-x1**2-x3**2) & 10.5-x2)", "((r1**2-x1**2-x3**2) & 10.5-x2)")
         .replace("SIN(-1+x2/c2)**2", "SIN(-1+x2/c2))**2")
-        .replace("COS(-1+x2/c2)**2)", "COS(-1+x2/c2))**2)")
+        .replace("COS(-1+x2/c2)**2) )", "COS(-1+x2/c2))**2 )")
         .replace("(x3-pz[i])**2);", "(x3-pz[i])**2));");
     let outcome = session.input("as-printed.txt", &text, Mode::Script);
     let (found, helps) = (messages(&outcome), helps(&outcome));

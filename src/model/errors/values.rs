@@ -70,6 +70,23 @@ fn list(coordinates: Coordinates) -> String {
     coordinates.iter().map(|c| c.to_string()).collect::<Vec<_>>().join(", ")
 }
 
+/// A `gob_` is a number or a function of the coordinates.
+///
+/// # Errors
+/// If the value is something else.
+pub fn check_object(name: &str, value: &Value, span: Span) -> Lowered<()> {
+    match value {
+        Value::Array(_) | Value::Text(_) | Value::Function(_) if name.starts_with("gob_") => {
+            let title = format!("`{name}` is an object, a function of the coordinates, and cannot be {}", value.kind());
+            Err(Diagnostic::error("not-an-object", title)
+                .at(span, value.kind())
+                .help("a name without `gob_` may hold anything")
+                .into())
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Arithmetic on a text or a function.
 pub fn no_arithmetic(value: &Value, span: Span) -> Diagnostic {
     let told = Diagnostic::error("no-arithmetic", format!("{} has no arithmetic", value.kind())).at(span, value.kind());

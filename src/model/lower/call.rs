@@ -41,12 +41,12 @@ impl Lower<'_> {
 
     /// Inside a function, its own name with parentheses is recursion, also where the name holds the result.
     fn own_function(&self, name: &Name) -> Option<Arc<Function>> {
-        let local = self.locals[self.frame..].iter().rev().find(|l| l.name == *name)?;
-        if let Slot::Is(Value::Function(_)) = local.slot {
-            return None;
+        let running = self.current_function.last().filter(|f| f.name == *name)?;
+        let local = self.locals[self.frame..].iter().rev().find(|l| l.name == *name);
+        match local.map(|l| &l.slot) {
+            Some(Slot::Is(Value::Function(_))) => None,
+            _ => Some(running.clone()),
         }
-        let definition = self.current_function.last()?;
-        (definition.name == *name).then(|| definition.clone())
     }
 
     fn arguments(
@@ -250,7 +250,7 @@ fn admits(kind: ParameterKind, value: &Value) -> bool {
 fn named_coordinates(arguments: &[Expr]) -> Option<Vec<(u8, Span, &Expr)>> {
     let named = |e: &'_ Expr| -> Option<u8> {
         match &e.kind {
-            ExprKind::Setting { name, .. } => name.name[1..].parse().ok(),
+            ExprKind::Setting { name, .. } => super::super::environment::coordinate(&name.name),
             ExprKind::Compare { first, rest } => match (&first.kind, &rest[..]) {
                 (ExprKind::Coordinate(c), [(CompareOp::Equal, _, _)]) => Some(*c),
                 _ => None,

@@ -176,9 +176,19 @@ impl Lower<'_> {
         let mut parts = Vec::with_capacity(items.len());
         for item in items {
             let value = self.expr(item)?;
-            parts.push(value.show(self.graph));
+            parts.push(self.shown(item, &value));
         }
         Ok(parts.join(" "))
+    }
+
+    /// A value as PRINT and the prompt show it; an object that is asked for by its name says so.
+    fn shown(&self, e: &Expr, value: &Value) -> String {
+        match (&e.kind, value) {
+            (ExprKind::Name(name), Value::Scalar(Scalar::Node(_))) if name.starts_with("gob_") => {
+                super::super::session::line(name, value, self.graph)
+            }
+            _ => value.show(self.graph),
+        }
     }
 
     /// A text argument.

@@ -110,7 +110,7 @@ pub struct World<'a> {
 }
 
 /// Deepest nesting of expressions in evaluation, calls included; the stack of [`super::stack`] holds it.
-const DEPTH: usize = 24_000;
+const DEPTH: usize = 20_000;
 
 /// Evaluates definitions over a state.
 pub struct Lower<'a> {
@@ -128,7 +128,8 @@ pub struct Lower<'a> {
     current: Option<Arc<Definition>>,
     /// The functions whose bodies are being run, innermost last.
     current_function: Vec<Arc<Function>>,
-    turns: usize,
+    /// Turns that loops and calls have taken for this input.
+    pub turns: usize,
     depth: usize,
     calls: usize,
 }
@@ -261,20 +262,26 @@ impl<'a> Lower<'a> {
             StatementKind::Type { kind, .. } => self.type_value(kind)?,
             _ => return self.outputs(definition),
         };
+        if let Some(name) = definition.outputs.first() {
+            errors::check_object(name, &value, definition.place())?;
+        }
         Ok(Kept::One(value))
     }
 
     /// A loop or an IF: runs it and takes a value for each of its names.
     fn outputs(&mut self, definition: &Definition) -> Lowered<Kept> {
         self.exec(&definition.statement)?;
-        let values = definition.outputs.iter().map(|name| {
+        let mut values = Vec::with_capacity(definition.outputs.len());
+        for name in &definition.outputs {
             let slot = self.locals.iter().find(|l| l.name == *name).map(|l| &l.slot);
-            match slot {
-                Some(Slot::Is(value)) => Some(value.clone()),
-                _ => None,
-            }
-        });
-        Ok(Kept::Many(values.collect()))
+            let Some(Slot::Is(value)) = slot else {
+                values.push(None);
+                continue;
+            };
+            errors::check_object(name, value, definition.place())?;
+            values.push(Some(value.clone()));
+        }
+        Ok(Kept::Many(values.into()))
     }
 
     fn base(&self, base: &Arc<Definition>, name: &Name) -> Slot {
