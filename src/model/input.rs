@@ -264,7 +264,7 @@ impl<'s> Input<'s> {
                 state.set_system(SystemInForce::Set(definition.clone()));
             }
             StatementKind::Type { subject, kind } => {
-                let declared = Declared { kind: kind.clone(), definition: definition.clone(), span: subject.span };
+                let declared = Declared { kind: kind.clone(), definition: definition.clone() };
                 state.declare(subject.name.clone(), declared);
                 state.push(Entry::Definition(definition.clone()));
                 state.add_stale(&definition);

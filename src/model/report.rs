@@ -25,8 +25,8 @@ pub fn deps(state: &State, name: &str) -> Option<Deps> {
             continue;
         }
         for output in &definition.outputs {
-            readers.push(output.to_string());
             if state.is_current_for(output, &definition) {
+                readers.push(output.to_string());
                 waiting.extend(state.readers(output));
             }
         }

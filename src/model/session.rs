@@ -79,7 +79,12 @@ pub struct Session {
     next: u64,
     seen: FxHashSet<DefinitionId>,
     again: Vec<Name>,
+    /// Nodes of the graph after it was last made anew.
+    settled: usize,
 }
+
+/// Nodes that a session may leave behind before its graph is made anew.
+const LEFT_BEHIND: usize = 1 << 20;
 
 impl fmt::Debug for Session {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -105,6 +110,7 @@ impl Session {
             next: 0,
             seen: FxHashSet::default(),
             again: Vec::new(),
+            settled: 0,
         }
     }
 
@@ -112,6 +118,7 @@ impl Session {
     /// for beside it.
     pub fn input(&mut self, name: &str, text: &str, mode: Mode) -> Outcome {
         let id = self.sources.add(name, text);
+        self.tidy();
         self.again.clear();
         self.transaction(id, mode, title_of(text))
     }
@@ -145,6 +152,24 @@ impl Session {
         outcome
     }
 
+    /// Nodes are never removed from a graph, so a long session would gather those of all its former definitions: once they are in the
+    /// majority, a new graph is built from what still matters.
+    fn tidy(&mut self) {
+        if self.graph.len() > LEFT_BEHIND + 2 * self.settled {
+            self.graph = Graph::new();
+            self.state.forget_all();
+            self.settle();
+            self.settled = self.graph.len();
+        }
+    }
+
+    /// Data files are read again when they are next asked for: they may have changed.
+    pub fn forget_files(&mut self) {
+        self.files.clear();
+        self.state.forget_all();
+        self.settle();
+    }
+
     pub(super) fn next_id(&mut self) -> DefinitionId {
         self.next += 1;
         DefinitionId(self.next)
@@ -153,7 +178,8 @@ impl Session {
     pub(super) fn count_lowered(&mut self, lowered: &[Arc<Definition>]) {
         for definition in lowered {
             if !self.seen.insert(definition.id) {
-                self.again.extend(definition.outputs.iter().cloned());
+                let current = definition.outputs.iter().filter(|n| self.state.is_current_for(n, definition));
+                self.again.extend(current.cloned());
             }
         }
     }

@@ -6,7 +6,6 @@ use std::sync::{Arc, Weak};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::Diagnostic;
-use crate::source::Span;
 use crate::syntax::tree::{GeometricType, Name};
 
 use super::definition::{Definition, DefinitionId, SystemInForce};
@@ -42,8 +41,6 @@ pub struct Declared {
     pub kind: GeometricType,
     /// The statement, whose expressions are live.
     pub definition: Arc<Definition>,
-    /// Where.
-    pub span: Span,
 }
 
 /// One place of the state with the value that it does not have now: swapping both undoes and redoes.
@@ -87,6 +84,8 @@ pub struct State {
     coordinates: u16,
     /// Definitions whose values are to be found again, oldest first.
     stale: Vec<Arc<Definition>>,
+    /// Kept results after the last sweep.
+    swept: usize,
 }
 
 /// Definitions that read something. Dead ones are swept when the list has doubled.
@@ -208,7 +207,6 @@ impl State {
             self.apply(Change::Name(name.clone(), Some(definition.clone())));
         }
         self.push(Entry::Definition(definition.clone()));
-        self.stale.push(definition.clone());
     }
 
     /// Adds to the list of statements.
@@ -244,9 +242,20 @@ impl State {
         }
     }
 
-    /// Drops all results: the graph that they point into is gone.
+    /// Drops all results, since the graph that they point into goes; all that is live is to be found again.
     pub fn forget_all(&mut self) {
         self.kept.clear();
+        self.stale.extend(self.names.values().cloned());
+        self.stale.extend(self.types.values().map(|d| d.definition.clone()));
+    }
+
+    /// Drops the results of definitions that no longer matter, once these are in the majority.
+    fn sweep(&mut self) {
+        if self.kept.len() > 1_000 + 2 * self.swept {
+            let live = self.live();
+            self.kept.retain(|id, _| live.contains(id));
+            self.swept = self.kept.len();
+        }
     }
 
     /// Everything whose value depends on a name loses its kept result. What holds none has no dependent that holds one, so the walk
@@ -294,6 +303,7 @@ impl State {
     fn swap(&mut self, change: &mut Change) {
         match change {
             Change::Name(name, definition) => {
+                self.stale.extend(definition.clone());
                 *definition = match definition.take() {
                     Some(new) => self.names.insert(name.clone(), new),
                     None => self.names.remove(name),
@@ -303,6 +313,7 @@ impl State {
             }
             Change::System(system) => std::mem::swap(&mut self.system, system),
             Change::Type(subject, declared) => {
+                self.stale.extend(declared.iter().map(|d| d.definition.clone()));
                 *declared = match declared.take() {
                     Some(new) => self.types.insert(subject.clone(), new),
                     None => self.types.remove(subject),
@@ -374,6 +385,7 @@ impl State {
         if self.program.len() > mark.program {
             changes.push(Change::Program(mark.program, Vec::new()));
         }
+        self.sweep();
         changes
     }
 

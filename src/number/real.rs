@@ -25,9 +25,9 @@ impl Unary {
     #[cold]
     fn rare<T: Float>(self, a: T) -> T {
         match self {
-            Self::Sin => a.through(functions::sin),
-            Self::Cos => a.through(functions::cos),
-            Self::Tan => a.through(functions::tan),
+            Self::Sin => T::of(functions::sin(a.double())),
+            Self::Cos => T::of(functions::cos(a.double())),
+            Self::Tan => T::of(functions::tan(a.double())),
             other => other.common(a),
         }
     }
@@ -36,6 +36,11 @@ impl Unary {
     /// What the longer slice has beyond the shorter stays.
     #[inline(always)]
     pub fn map<T: Float>(self, a: &[T], out: &mut [T]) {
+        let length = a.len().min(out.len());
+        let (a, out) = (&a[..length], &mut out[..length]);
+        if let Self::Powi(n) = self {
+            return float::powi_map(a, out, n);
+        }
         let mut rare = false;
         for (&a, out) in a.iter().zip(&mut *out) {
             *out = self.common(a);
@@ -62,22 +67,7 @@ impl Unary {
             Self::Sign => T::ONE.when(a > T::ZERO, (-T::ONE).when(a < T::ZERO, a * T::ZERO)),
             Self::Not => T::truth(!is_true(a)),
             Self::Powi(n) => float::powi(a, n),
-            Self::Cbrt => a.through(functions::cbrt),
-            Self::Exp => a.through(functions::exp),
-            Self::Log => a.through(functions::log),
-            Self::Log10 => a.through(functions::log10),
-            Self::Sin => a.through(functions::sin_near),
-            Self::Cos => a.through(functions::cos_near),
-            Self::Tan => a.through(functions::tan_near),
-            Self::Asin => a.through(functions::asin),
-            Self::Acos => a.through(functions::acos),
-            Self::Atan => a.through(functions::atan),
-            Self::Sinh => a.through(functions::sinh),
-            Self::Cosh => a.through(functions::cosh),
-            Self::Tanh => a.through(functions::tanh),
-            Self::Asinh => a.through(functions::asinh),
-            Self::Acosh => a.through(functions::acosh),
-            Self::Atanh => a.through(functions::atanh),
+            elementary => a.elementary(elementary),
         }
     }
 
@@ -108,7 +98,7 @@ impl Binary {
             Self::Min => float::min(a, b),
             Self::Max => float::max(a, b),
             Self::Pow => float::pow(a, b),
-            Self::Atan2 => a.through2(b, functions::atan2),
+            Self::Atan2 => float::atan2(a, b),
             Self::Hypot => float::hypot(a, b),
             Self::Mod => float::modulo(a, b),
             Self::Less => T::truth(a < b),

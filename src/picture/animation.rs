@@ -1,7 +1,7 @@
 //! Frames of an object over one of its parameters, time for instance: one program, one camera for all of them. Writes no files.
 
 use super::camera::{Camera, View};
-use super::extent::extent;
+use super::extent::Extent;
 use super::image::Image;
 use super::raycast::{Picture, Space, Style, framed, raycast};
 use crate::interrupt::{Cancelled, Interrupt};
@@ -32,18 +32,14 @@ impl Frames<'_> {
         shape
     }
 
-    /// The smallest box of cells that holds the object in every frame; the whole space if it is always empty.
+    /// A hull of the object in all frames.
     ///
     /// # Errors
     /// [`Cancelled`] soon after the interrupt was set.
-    pub fn extent(&self, interrupt: &Interrupt) -> Result<Space, Cancelled> {
-        let mut all: Option<Space> = None;
-        for frame in 0..self.values.len() {
-            if let Some(one) = extent(&self.shape(frame), self.space, interrupt)? {
-                all = Some(all.map_or(one, |all| hull(all, one)));
-            }
-        }
-        Ok(all.unwrap_or(self.space))
+    pub fn extent(&self, interrupt: &Interrupt) -> Result<Extent, Cancelled> {
+        let nothing = Extent::nothing(self.space, self.shape.dimension);
+        (0..self.values.len())
+            .try_fold(nothing, |all, frame| Ok(all.join(&Extent::of(&self.shape(frame), self.space, interrupt)?)))
     }
 
     /// The one camera that frames the object in every frame.
@@ -51,7 +47,7 @@ impl Frames<'_> {
     /// # Errors
     /// [`Cancelled`] soon after the interrupt was set.
     pub fn camera(&self, view: &View, style: &Style, interrupt: &Interrupt) -> Result<Camera, Cancelled> {
-        Ok(framed(view, self.extent(interrupt)?, style))
+        Ok(framed(view, &self.extent(interrupt)?, style))
     }
 
     /// One frame.
@@ -76,8 +72,4 @@ impl Frames<'_> {
         let camera = self.camera(view, style, interrupt)?;
         (0..self.values.len()).map(|frame| Ok(self.picture(frame, &camera, style, interrupt)?.image)).collect()
     }
-}
-
-fn hull(a: Space, b: Space) -> Space {
-    Space { lo: std::array::from_fn(|k| a.lo[k].min(b.lo[k])), hi: std::array::from_fn(|k| a.hi[k].max(b.hi[k])) }
 }

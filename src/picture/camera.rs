@@ -99,11 +99,12 @@ pub struct Camera {
 const MARGIN: f64 = 0.06;
 
 impl Camera {
-    /// The camera of that view which sees all of the box, as large as it can be with a small margin. `aspect` is width by height.
+    /// The camera of that view which sees all of the points (at least one), as large as it can be with a small margin. `aspect` is
+    /// width by height.
     #[must_use]
-    pub fn framing(view: &View, lo: [f64; 3], hi: [f64; 3], aspect: f64) -> Self {
+    pub fn framing(view: &View, points: &[[f64; 3]], aspect: f64) -> Self {
         let axes = view.axes();
-        let corners = corners(lo, hi).map(|corner| axes.map(|axis| dot(axis, corner)));
+        let corners: Vec<[f64; 3]> = points.iter().map(|&point| axes.map(|axis| dot(axis, point))).collect();
         let framed = match view.projection {
             Projection::Orthographic => parallel(&corners, aspect),
             Projection::Perspective(angle) => central(&corners, aspect, angle),
@@ -140,7 +141,7 @@ struct Framed {
 }
 
 /// Parallel rays: the picture's plane lies before all corners.
-fn parallel(corners: &[[f64; 3]; 8], aspect: f64) -> Framed {
+fn parallel(corners: &[[f64; 3]], aspect: f64) -> Framed {
     let (lo, hi) = extent(corners);
     let height = (0.5 * (hi[1] - lo[1])).max(0.5 * (hi[0] - lo[0]) / aspect) / (1.0 - MARGIN);
     let height = if height > 0.0 { height } else { 1.0 };
@@ -150,7 +151,7 @@ fn parallel(corners: &[[f64; 3]; 8], aspect: f64) -> Framed {
 
 /// The eye as near as it can be: a corner must lie within the slanted planes at the sides of the picture, so for each side the
 /// corner that presses most decides; the axis that needs more distance wins, and the other is centred.
-fn central(corners: &[[f64; 3]; 8], aspect: f64, angle: f64) -> Framed {
+fn central(corners: &[[f64; 3]], aspect: f64, angle: f64) -> Framed {
     let longer = libm::tan(0.5 * angle);
     let growth = if aspect >= 1.0 { [longer, longer / aspect] } else { [longer * aspect, longer] };
     let press = |axis: usize, sign: f64| {
@@ -167,8 +168,9 @@ fn central(corners: &[[f64; 3]; 8], aspect: f64, angle: f64) -> Framed {
     Framed { eye, base: [0.0; 2], growth }
 }
 
-fn extent(points: &[[f64; 3]; 8]) -> ([f64; 3], [f64; 3]) {
-    let fold = |k: usize, f: fn(f64, f64) -> f64| points.iter().map(|p| p[k]).fold(points[0][k], f);
+fn extent(points: &[[f64; 3]]) -> ([f64; 3], [f64; 3]) {
+    let first = points.first().copied().unwrap_or_default();
+    let fold = |k: usize, f: fn(f64, f64) -> f64| points.iter().map(|p| p[k]).fold(first[k], f);
     (std::array::from_fn(|k| fold(k, f64::min)), std::array::from_fn(|k| fold(k, f64::max)))
 }
 

@@ -100,7 +100,7 @@ impl Palette {
     #[must_use]
     pub fn solid(self) -> [u8; 3] {
         match self {
-            Self::Plain => [0xb9, 0xc7, 0xd8],
+            Self::Plain => [0xc3, 0xce, 0xdb],
             Self::Mono | Self::Grey => [0xc8, 0xc8, 0xc8],
             other => other.colour(0.62),
         }

@@ -1,6 +1,7 @@
 //! A 3-D object in the light, on a soft light background: rays cast, shaded, and averaged over each pixel. Writes no files.
 
 use super::camera::{Camera, View};
+use super::extent::Extent;
 use super::image::Image;
 use super::palette::{Palette, encode, linear};
 use super::rays::{Scene, Tile, cast};
@@ -69,6 +70,9 @@ pub fn raycast(
 ) -> Result<Picture, Cancelled> {
     assert_eq!(shape.dimension, 3, "rays are cast in a space of three axes");
     let [width, height] = style.size;
+    if width == 0 || height == 0 {
+        return Ok(Picture { image: Image::new(width, height, [0; 3]), counters: Counters::default(), hits: 0 });
+    }
     let fine = style.supersample.clamp(1, 4);
     // Tiles are whole pixels.
     let tile = if fine == 3 { 6 } else { 8 };
@@ -88,10 +92,10 @@ pub fn raycast(
     Ok(Picture { image, counters, hits })
 }
 
-/// The camera of that view for an object within `space`, in a picture of the style's size.
+/// The camera of that view which frames the object, in a picture of the style's size.
 #[must_use]
-pub fn framed(view: &View, space: Space, style: &Style) -> Camera {
-    Camera::framing(view, space.lo, space.hi, style.size[0] as f64 / style.size[1].max(1) as f64)
+pub fn framed(view: &View, extent: &Extent, style: &Style) -> Camera {
+    Camera::framing(view, &extent.points(), style.size[0] as f64 / style.size[1].max(1) as f64)
 }
 
 /// The background's light, row by row.

@@ -12,6 +12,7 @@ use crate::vm::{Program, Shape};
 
 use super::camera::Camera;
 use super::raycast::Space;
+use super::search::{Bracket, SAMPLES, Segment, Summit};
 
 /// Samples of a picture and the space that they look into.
 #[derive(Clone, Copy, Debug)]
@@ -70,9 +71,6 @@ pub fn cast<T: Send>(
 
 /// Cells of depth in the smallest box.
 const LEAF_DEPTH: usize = 4;
-
-/// Samples along a ray in a smallest box, both ends included.
-const SAMPLES: usize = 7;
 
 /// Narrowing steps towards a maximum: each leaves 0.618 of the bracket, so its place is known to 1e-5 of a sample's spacing.
 const GOLDEN_STEPS: usize = 24;
@@ -194,50 +192,22 @@ impl Ray {
         Hit { depth: self.enter, normal, cap: true }
     }
 
-    /// A hit with the normal from a gradient; towards the eye where the gradient is of no use.
+    /// A hit with the normal from a gradient, turned to the eye; undefined (NaN) where the gradient is of no use.
     fn hit(&self, depth: f64, gradient: [f64; 3]) -> Hit {
-        let along: f64 = (0..3).map(|k| gradient[k] * self.direction[k]).sum();
-        let (mut normal, sign) = if along < 0.0 { (gradient, 1.0) } else { (gradient, -1.0) };
-        let largest = normal.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        if !(largest > 0.0 && largest.is_finite() && gradient.iter().all(|v| v.is_finite())) {
-            normal = self.direction;
-        }
-        let largest = normal.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let scaled = normal.map(|v| v / largest);
-        let length = scaled.iter().map(|v| v * v).sum::<f64>().sqrt();
-        Hit { depth, normal: scaled.map(|v| sign * v / length), cap: false }
+        Hit { depth, normal: self.facing(gradient).unwrap_or([f64::NAN; 3]), cap: false }
     }
-}
 
-/// The part of a ray in a smallest box.
-#[derive(Clone, Copy)]
-struct Segment {
-    ray: usize,
-    from: f64,
-    to: f64,
-}
-
-/// A stretch of a ray that begins outside and ends inside.
-#[derive(Clone, Copy)]
-struct Bracket {
-    ray: usize,
-    outside: (f64, f64),
-    inside: (f64, f64),
-    /// Which end moved last: 1 the inside one, -1 the outside one.
-    moved: i8,
-}
-
-/// A stretch of a ray on which all samples are outside and the function may have a maximum inside.
-#[derive(Clone, Copy)]
-struct Summit {
-    ray: usize,
-    /// A place outside before the maximum, and its value.
-    before: (f64, f64),
-    lo: f64,
-    hi: f64,
-    /// The inner places of the golden section and their values.
-    left: (f64, f64),
-    right: (f64, f64),
+    /// The unit vector along `v` or against it, whichever is turned to the eye; `None` if `v` has no direction.
+    fn facing(&self, v: [f64; 3]) -> Option<[f64; 3]> {
+        let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+        if !(largest > 0.0 && largest.is_finite() && v.iter().all(|c| c.is_finite())) {
+            return None;
+        }
+        let scaled = v.map(|c| c / largest);
+        let along: f64 = (0..3).map(|k| scaled[k] * self.direction[k]).sum();
+        let length = scaled.iter().map(|c| c * c).sum::<f64>().sqrt();
+        Some(scaled.map(|c| if along > 0.0 { -c / length } else { c / length }))
+    }
 }
 
 /// Scratch for points and values.
@@ -410,6 +380,33 @@ impl<'a, T, F> Caster<'a, T, F> {
         self.normals(&found, program, sampler);
     }
 
+    /// Where the gradient gave no normal (steps, nearest samples): that of the plane through neighbouring hits.
+    fn mend(&mut self) {
+        for ray in 0..self.hits.len() {
+            if let Some(Hit { depth, normal, .. }) = self.hits[ray].filter(|hit| hit.normal[0].is_nan()) {
+                let normal = self.plane(ray, depth).unwrap_or(normal);
+                let towards = self.rays[ray].facing(normal).or_else(|| self.rays[ray].facing(self.rays[ray].direction));
+                self.hits[ray] = Some(Hit { depth, normal: towards.unwrap_or([0.0, 0.0, 1.0]), cap: false });
+            }
+        }
+    }
+
+    /// The normal of the plane through a hit and, of its neighbours in the row and in the column, those nearest in depth.
+    fn plane(&self, ray: usize, depth: f64) -> Option<[f64; 3]> {
+        let [columns, rows] = self.size;
+        let (i, j) = (ray % columns, ray / columns);
+        let here = self.point(ray, depth);
+        let edge = |before: Option<usize>, after: Option<usize>| {
+            let hits = [before, after].into_iter().flatten().filter_map(|ray| Some((ray, self.hits[ray]?.depth)));
+            let (ray, depth) = hits.min_by(|a, b| (a.1 - depth).abs().total_cmp(&(b.1 - depth).abs()))?;
+            let there = self.point(ray, depth);
+            Some(std::array::from_fn::<f64, 3, _>(|k| there[k] - here[k]))
+        };
+        let u = edge((i > 0).then(|| ray - 1), (i + 1 < columns).then_some(ray + 1))?;
+        let v = edge((j > 0).then(|| ray - columns), (j + 1 < rows).then_some(ray + columns))?;
+        Some([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+    }
+
     /// Turns depths on rays into hits.
     fn normals(&mut self, found: &[(usize, f64)], program: &Program, sampler: &mut Sampler) {
         self.columns.clear();
@@ -461,111 +458,9 @@ impl<T: Send, F: Fn(Tile<'_>) -> T + Sync> Visitor for Caster<'_, T, F> {
             let program = self.shape.program.clone();
             self.normals(&bare, &program, sampler);
         }
+        self.mend();
         let finish = self.finish;
         self.result = Some(finish(Tile { from: self.from, size: self.size, hits: &self.hits }));
         (self.rays, self.hits, self.columns) = (Vec::new(), Vec::new(), Columns::default());
-    }
-}
-
-impl Segment {
-    fn at(&self, step: usize) -> f64 {
-        match step {
-            0 => self.from,
-            s if s == SAMPLES - 1 => self.to,
-            s => self.from + (self.to - self.from) * (s as f64 / (SAMPLES - 1) as f64),
-        }
-    }
-
-    fn bracket(&self, values: &[f64], outside: usize, inside: usize) -> Bracket {
-        let place = |step: usize| (self.at(step), values[step]);
-        Bracket { ray: self.ray, outside: place(outside), inside: place(inside), moved: 0 }
-    }
-
-    /// The stretch around the largest sample, if the slopes beside it let the function reach 0 there: where it is concave it stays
-    /// below the lines through neighbouring samples.
-    fn summit(&self, values: &[f64]) -> Option<Summit> {
-        let top = (0..SAMPLES).filter(|&s| !values[s].is_nan()).max_by(|&a, &b| values[a].total_cmp(&values[b]))?;
-        let (first, last) = (top.saturating_sub(1), (top + 1).min(SAMPLES - 1));
-        let drop = (values[top] - values[first]).max(values[top] - values[last]);
-        if values[top] + drop < 0.0 {
-            return None;
-        }
-        let (lo, hi) = (self.at(first), self.at(last));
-        let mut summit = Summit {
-            ray: self.ray,
-            before: (lo, values[first]),
-            lo,
-            hi,
-            left: (hi - GOLDEN * (hi - lo), f64::NAN),
-            right: (lo + GOLDEN * (hi - lo), f64::NAN),
-        };
-        summit.before.1 = if summit.before.1.is_nan() { f64::NEG_INFINITY } else { summit.before.1 };
-        Some(summit)
-    }
-}
-
-/// The golden section.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
-
-impl Summit {
-    /// The inner place whose value is not known yet.
-    fn fresh(&self) -> (f64, f64) {
-        if self.left.1.is_nan() { self.left } else { self.right }
-    }
-
-    /// Takes the values of the places that were asked for; an undefined one counts as far outside.
-    fn learn(&mut self, values: &[f64]) {
-        let mut values = values.iter().map(|&v| if v.is_nan() { f64::NEG_INFINITY } else { v });
-        for place in [&mut self.left, &mut self.right] {
-            if place.1.is_nan() {
-                place.1 = values.next().unwrap_or(f64::NEG_INFINITY);
-            }
-        }
-    }
-
-    /// From outside to the first inner place that is inside.
-    fn bracket(&self) -> Option<Bracket> {
-        let inside = [self.left, self.right].into_iter().find(|place| place.1 >= 0.0)?;
-        Some(Bracket { ray: self.ray, outside: self.before, inside, moved: 0 })
-    }
-
-    fn narrow(&mut self) {
-        if self.left.1 >= self.right.1 {
-            self.hi = self.right.0;
-            self.right = self.left;
-            self.left = (self.hi - GOLDEN * (self.hi - self.lo), f64::NAN);
-        } else {
-            self.lo = self.left.0;
-            self.left = self.right;
-            self.right = (self.lo + GOLDEN * (self.hi - self.lo), f64::NAN);
-        }
-    }
-}
-
-impl Bracket {
-    fn width(&self) -> f64 {
-        (self.inside.0 - self.outside.0).abs()
-    }
-
-    /// The next place: regula falsi, kept off the ends; every third one the middle.
-    fn estimate(&self, step: usize) -> f64 {
-        let part = self.outside.1 / (self.outside.1 - self.inside.1);
-        let part = if step % 3 == 2 || !part.is_finite() { 0.5 } else { part.clamp(1e-4, 1.0 - 1e-4) };
-        self.outside.0 + part * (self.inside.0 - self.outside.0)
-    }
-
-    /// Illinois: the end that stays twice loses half its weight.
-    fn learn(&mut self, depth: f64, value: f64) {
-        let now = if value >= 0.0 { 1 } else { -1 };
-        if now == self.moved {
-            let stays = if now > 0 { &mut self.outside } else { &mut self.inside };
-            stays.1 *= 0.5;
-        }
-        if now > 0 {
-            self.inside = (depth, value);
-        } else {
-            self.outside = (depth, value);
-        }
-        self.moved = now;
     }
 }

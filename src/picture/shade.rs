@@ -25,8 +25,8 @@ const GROUND: Light = [0.15, 0.135, 0.12];
 const GLEAM: f32 = 0.16;
 const GLEAM_EXPONENT: f64 = 36.0;
 /// What a face of the modelling space that cuts the object is tinted with, and how much.
-const CUT: [u8; 3] = [0xd9, 0xa0, 0x6a];
-const CUT_SHARE: f32 = 0.45;
+const CUT: [u8; 3] = [0xe9, 0xb8, 0x86];
+const CUT_SHARE: f32 = 0.6;
 
 impl Lights {
     /// Lights for a camera and a solid of that colour (sRGB).

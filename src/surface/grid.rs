@@ -36,6 +36,8 @@ pub enum GridError {
     Dimension(usize),
     /// The bounds of the coordinate with this index (from 0) are not finite or hold no length.
     Bounds(usize),
+    /// The cells along the coordinate with this index are too small for doubles of its size.
+    TooFine(usize),
     /// No cells, or more than [`MOST_CELLS`] along a side.
     Resolution(usize),
 }
@@ -45,6 +47,7 @@ impl fmt::Display for GridError {
         match self {
             Self::Dimension(n) => write!(f, "a boundary is found in 2 or 3 coordinates, not in {n}"),
             Self::Bounds(axis) => write!(f, "the modelling space has no extent along x{}", axis + 1),
+            Self::TooFine(axis) => write!(f, "the cells along x{} are too small to be told apart", axis + 1),
             Self::Resolution(n) => write!(f, "{n} cells along a side: between 1 and {MOST_CELLS} are possible"),
         }
     }
@@ -77,6 +80,10 @@ impl Grid {
             // A side that is a whole number of cells but for rounding must not get one more.
             let cells = ((hi - lo) / longest * resolution as f64 - 1e-9).ceil();
             grid.cells[axis] = (cells as usize).clamp(1, resolution);
+            let unit = f64::EPSILON * lo.abs().max(hi.abs()) + f64::MIN_POSITIVE;
+            if grid.cell()[axis] < 1024.0 * unit {
+                return Err(GridError::TooFine(axis));
+            }
         }
         Ok(grid)
     }

@@ -84,8 +84,10 @@ pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
     let [rough, good] = [&coarse.mesh, &fine.mesh].map(Integrals::of);
     let mut report = fine.report;
     report.counters.add(coarse.report.counters);
+    // One cell cannot be halved; nothing is known about the error then.
+    let is_compared = grid.halved() != *grid;
     let estimate = |of: &dyn Fn(&Integrals) -> f64| {
-        let (value, other) = (of(&good), of(&rough));
+        let (value, other) = (of(&good), if is_compared { of(&rough) } else { 0.0 });
         Estimate { value, error: (value - other).abs() }
     };
     Ok(Measures {

@@ -9,10 +9,10 @@ use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 
 use pest::Parser;
-use pest::error::{InputLocation, LineColLocation};
+use pest::error::{ErrorVariant, InputLocation};
 use pest::iterators::Pairs;
 
-use super::explain::{self, Place};
+use super::explain::{self, Forgotten, Place};
 use super::scan::is_space;
 use super::split::{Chunk, Pieces, split};
 use super::tree::{Statement, StatementKind};
@@ -85,16 +85,23 @@ fn plain_spaces(text: &str) -> Cow<'_, str> {
 /// pest keeps its call limit in one place for the whole process, so that one text parses at a time.
 static CALL_LIMIT: Mutex<()> = Mutex::new(());
 
-fn grammar(rule: Rule, text: &str) -> Result<Pairs<'_, Rule>, usize> {
+/// Why a text gave no tree.
+#[derive(Clone, Copy, Debug)]
+enum Stop {
+    /// The grammar cannot go on at this byte.
+    At(usize),
+    /// A limit of pest was reached.
+    GaveUp,
+}
+
+fn grammar(rule: Rule, text: &str) -> Result<Pairs<'_, Rule>, Stop> {
     let guard = CALL_LIMIT.lock().unwrap_or_else(PoisonError::into_inner);
     pest::set_call_limit(NonZeroUsize::new(200 * text.len() + 10_000));
     let result = Grammar::parse(rule, text);
     drop(guard);
-    result.map_err(|error| match (error.location, error.line_col) {
-        (
-            InputLocation::Pos(at) | InputLocation::Span((at, _)),
-            LineColLocation::Pos(_) | LineColLocation::Span(..),
-        ) => at,
+    result.map_err(|error| match (error.variant, error.location) {
+        (ErrorVariant::CustomError { .. }, _) => Stop::GaveUp,
+        (_, InputLocation::Pos(at) | InputLocation::Span((at, _))) => Stop::At(at),
     })
 }
 
@@ -106,7 +113,7 @@ struct Driver<'t> {
     parsed: Parsed,
 }
 
-impl Driver<'_> {
+impl<'t> Driver<'t> {
     fn run(&mut self, pieces: &Pieces) {
         for chunk in &pieces.chunks {
             self.chunk(chunk);
@@ -117,6 +124,8 @@ impl Driver<'_> {
     }
 
     fn finish(mut self, limits: &Limits) -> Parsed {
+        // The faults of a block's brackets are found before the other errors in it.
+        self.parsed.diagnostics.sort_by_key(|d| d.labels.iter().find(|l| l.primary).map(|l| l.span.start));
         let errors = self.parsed.diagnostics.len();
         if errors > limits.errors {
             self.parsed.diagnostics.truncate(limits.errors);
@@ -125,7 +134,7 @@ impl Driver<'_> {
         self.parsed
     }
 
-    fn place(&self, start: usize, end: usize) -> Place<'_> {
+    fn place(&self, start: usize, end: usize) -> Place<'t> {
         Place { text: self.text, id: self.id, start, end }
     }
 
@@ -137,7 +146,39 @@ impl Driver<'_> {
         let place = self.place(chunk.start, chunk.end);
         let diagnostics: Vec<_> = chunk.faults.iter().map(|fault| explain::fault(place, *fault)).collect();
         self.parsed.diagnostics.extend(explain::gather(diagnostics));
+        // What else is wrong in a block shows once the statements with the faults are out of the way.
+        let mut mended = Mended::new(self.text, chunk);
+        if chunk.faults.len() < MENDINGS && chunk.faults.iter().all(|fault| mended.blank(place, fault.start)) {
+            self.further_errors(chunk, mended);
+        }
         self.fail(chunk, chunk.start);
+    }
+
+    /// Tells the errors of a block one after another, each time without the statement that had the last one.
+    fn further_errors(&mut self, chunk: &Chunk, mut mended: Mended) {
+        let mut last = None;
+        for _ in 0..MENDINGS {
+            let parsed = with_stack(chunk.depth, || grammar(Rule::single, &mended.text).map(drop));
+            let Err(Stop::At(at)) = parsed else { return };
+            if last.replace(at) == Some(at) {
+                return;
+            }
+            let at = chunk.start + at;
+            let place = self.place(chunk.start, chunk.end);
+            let forgotten = explain::forgotten_semicolon(place, at);
+            let diagnostic = match forgotten {
+                Some(next) => explain::missing_semicolon(place, next),
+                None => explain::unexpected(place, at).diagnostic,
+            };
+            let went_on = match forgotten {
+                Some(next) => mended.end_statement(next),
+                None => mended.blank(place, at),
+            };
+            self.parsed.diagnostics.push(diagnostic);
+            if !went_on {
+                return;
+            }
+        }
     }
 
     fn fail(&mut self, chunk: &Chunk, start: usize) {
@@ -154,13 +195,19 @@ impl Driver<'_> {
     /// Parses the statements of a chunk: one, or several where a `;` was forgotten.
     fn statements(&mut self, chunk: &Chunk) {
         let mut start = chunk.start;
-        while let Err(at) = self.one(chunk, start, chunk.end) {
+        while let Err(stop) = self.one(chunk, start, chunk.end) {
             let place = self.place(start, chunk.end);
-            let Some(next) = explain::forgotten_semicolon(place, at) else { return self.stuck(chunk, start, at) };
-            if self.one(chunk, start, next.after).is_err() {
+            let Stop::At(at) = stop else {
+                let diagnostic = explain::gave_up(place);
+                self.parsed.diagnostics.push(diagnostic);
+                return self.fail(chunk, start);
+            };
+            let next = explain::forgotten_semicolon(place, at);
+            let Some(next) = next.filter(|next| self.one(chunk, start, next.after).is_ok()) else {
                 return self.stuck(chunk, start, at);
-            }
-            self.parsed.diagnostics.push(explain::missing_semicolon(self.place(start, chunk.end), next));
+            };
+            let diagnostic = explain::missing_semicolon(self.place(start, chunk.end), next);
+            self.parsed.diagnostics.push(diagnostic);
             start = next.statement;
         }
         if chunk.semicolon.is_none() && self.mode == Mode::Script {
@@ -178,14 +225,20 @@ impl Driver<'_> {
     }
 
     fn stuck(&mut self, chunk: &Chunk, start: usize, at: usize) {
-        let explained = explain::unexpected(self.place(start, chunk.end), at);
-        self.parsed.incomplete |= explained.at_end && chunk.semicolon.is_none();
-        self.parsed.diagnostics.push(explained.diagnostic);
+        let place = self.place(start, chunk.end);
+        if explain::statement_in_block(place, at).is_some() {
+            let rest = Chunk { start, ..chunk.clone() };
+            self.further_errors(&rest, Mended::new(self.text, &rest));
+        } else {
+            let explained = explain::unexpected(place, at);
+            self.parsed.incomplete |= explained.at_end && chunk.semicolon.is_none();
+            self.parsed.diagnostics.push(explained.diagnostic);
+        }
         self.fail(chunk, start);
     }
 
-    /// Parses one statement of `start..end`; the error is the byte where the grammar stopped.
-    fn one(&mut self, chunk: &Chunk, start: usize, end: usize) -> Result<(), usize> {
+    /// Parses one statement of `start..end`; the error says where the grammar stopped.
+    fn one(&mut self, chunk: &Chunk, start: usize, end: usize) -> Result<(), Stop> {
         let text = &self.text[start..end];
         let (id, comments, whole) = (self.id, self.comments, self.text);
         let (kind, diagnostics) = with_stack(chunk.depth, || {
@@ -194,7 +247,10 @@ impl Driver<'_> {
             let kind = pairs.next().and_then(|single| builder.single(single));
             Ok((kind, builder.diagnostics))
         })
-        .map_err(|at: usize| at + start)?;
+        .map_err(|stop| match stop {
+            Stop::At(at) => Stop::At(at + start),
+            Stop::GaveUp => Stop::GaveUp,
+        })?;
         let failed = diagnostics.iter().any(Diagnostic::is_error);
         self.parsed.diagnostics.extend(diagnostics);
         match kind {
@@ -206,16 +262,49 @@ impl Driver<'_> {
     }
 }
 
+/// How many errors of one block are told, each of which parses the block again.
+const MENDINGS: usize = 20;
+
+/// A copy of a statement in which what is wrong is blanked out, byte for byte, so that places stay what they are.
+struct Mended {
+    text: String,
+    base: usize,
+}
+
+impl Mended {
+    fn new(text: &str, chunk: &Chunk) -> Self {
+        Self { text: text[chunk.start..chunk.end].to_owned(), base: chunk.start }
+    }
+
+    /// Blanks out the statement of a block that holds byte `at` of the whole text; false if there is none left.
+    fn blank(&mut self, place: Place<'_>, at: usize) -> bool {
+        let Some((start, end)) = explain::statement_in_block(place, at) else { return false };
+        let (start, end) = (start - self.base, end - self.base);
+        let fresh = !self.text[start..end].trim().is_empty();
+        self.text.replace_range(start..end, &" ".repeat(end - start));
+        fresh
+    }
+
+    /// Writes a `;` into the white space between two statements; false if there is none.
+    fn end_statement(&mut self, forgotten: Forgotten) -> bool {
+        let (from, to) = (forgotten.after - self.base, forgotten.statement - self.base);
+        let white = |at: &usize| self.text.as_bytes()[*at].is_ascii_whitespace();
+        let Some(at) = [from, to.saturating_sub(1)].into_iter().find(|at| from < to && white(at)) else { return false };
+        self.text.replace_range(at..=at, ";");
+        true
+    }
+}
+
 /// Runs `work` on this stack, or on one that is large enough for `depth` levels of nesting.
-fn with_stack<T: Send>(depth: usize, work: impl FnOnce() -> Result<T, usize> + Send) -> Result<T, usize> {
+fn with_stack<T: Send>(depth: usize, work: impl FnOnce() -> Result<T, Stop> + Send) -> Result<T, Stop> {
     if depth < SHALLOW {
         return work();
     }
     std::thread::scope(|scope| {
         let builder = std::thread::Builder::new().stack_size((depth + SHALLOW) * STACK_PER_LEVEL);
         match builder.spawn_scoped(scope, work) {
-            Ok(handle) => handle.join().unwrap_or(Err(0)),
-            Err(_) => Err(0),
+            Ok(handle) => handle.join().unwrap_or(Err(Stop::GaveUp)),
+            Err(_) => Err(Stop::GaveUp),
         }
     })
 }

@@ -47,6 +47,7 @@ const UNARY: &[Unary] = &[
     Unary::Cosh,
     Unary::Tanh,
     Unary::Asinh,
+    Unary::Acosh,
     Unary::Atanh,
     Unary::Floor,
     Unary::Ceil,
@@ -67,6 +68,7 @@ const BINARY: &[Binary] = &[
     Binary::Div,
     Binary::Min,
     Binary::Max,
+    Binary::Pow,
     Binary::Atan2,
     Binary::Hypot,
     Binary::Mod,
@@ -79,7 +81,7 @@ const BINARY: &[Binary] = &[
 ];
 const TERNARY: &[Ternary] =
     &[Ternary::Select, Ternary::Union, Ternary::Intersection, Ternary::UnionSmooth, Ternary::IntersectionSmooth];
-const NUMBERS: &[f64] = &[0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 3.0, -0.25, 1e-9, 7.5, f64::NAN];
+const NUMBERS: &[f64] = &[0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 3.0, -0.25, 1e-9, 7.5, f64::NAN, f64::INFINITY];
 const INPUTS: [Coordinate; 3] = [Coordinate(1), Coordinate(2), Coordinate(3)];
 
 /// A random expression of x1, x2, x3 with shared parts, conditions and maps; what comes last is the root.

@@ -263,7 +263,9 @@ fn as_printed_is_explained_error_by_error() {
     let mut session = session_with(&[]);
     let outcome = session.input("as-printed.txt", &text, Mode::Script);
     let found = messages(&outcome);
-    let helps = |outcome: &Outcome| -> String { outcome.diagnostics.iter().flat_map(|d| d.help.clone()).collect::<Vec<_>>().join("\n") };
+    let helps = |outcome: &Outcome| -> String {
+        outcome.diagnostics.iter().flat_map(|d| d.help.clone()).collect::<Vec<_>>().join("\n")
+    };
     assert!(found.contains("`p_block_3D` is not defined"), "{found}");
     assert!(helps(&outcome).contains("`pob_block_3D`"), "{}", helps(&outcome));
     assert!(found.contains("teapot.dat"), "{found}");

@@ -5,13 +5,15 @@ use std::io::Cursor;
 use yont::export::{obj, ply, stl};
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
-use yont::number::Ternary;
-use yont::surface::boxes::Lattice;
+use yont::number::{Interval, Ternary};
+use yont::surface::boxes::{Block, Lattice, Visitor, Walk, walk};
 use yont::surface::brick::Bricks;
 use yont::surface::check::{Fault, Topology};
 use yont::surface::grid::BYTES_PER_VERTEX;
+use yont::surface::mesh::{cross, dot, minus};
+use yont::surface::sampler::{Sampler, span};
 use yont::surface::{Extraction, Grid, GridError, Mesh, SurfaceError, check, extract};
-use yont::vm::{Demand, Points, Shape};
+use yont::vm::{Demand, Points, Program, Shape};
 
 use crate::solids::{Ex, Field, HARD, KNOWN, ball, block, shape_of, sphere};
 
@@ -202,6 +204,9 @@ fn what_cannot_be_meshed_is_refused() {
     assert_eq!(none, Err(GridError::Bounds(0)));
     assert_eq!(Grid::new(&[[0.0, 1.0], [0.0, f64::INFINITY], [0.0, 1.0]], 8), Err(GridError::Bounds(1)));
     assert_eq!(Grid::new(&[[0.0, 1.0], [0.0, 1.0], [0.0, f64::NAN]], 8), Err(GridError::Bounds(2)));
+    assert_eq!(Grid::new(&[[0.0, 1e-320], [0.0, 1e-320], [0.0, 1e-320]], 8), Err(GridError::TooFine(0)));
+    assert_eq!(Grid::new(&[[0.0, 1.0], [1e15, 1e15 + 1.0], [0.0, 1.0]], 8), Err(GridError::TooFine(1)));
+    assert_eq!(Grid::new(&[[-1e308, 1e308]; 3], 8), Err(GridError::Bounds(0)));
     assert_eq!(Grid::new(&[[0.0, 1.0]; 3], 0), Err(GridError::Resolution(0)));
     assert_eq!(Grid::new(&[[0.0, 1.0]; 4], 8), Err(GridError::Dimension(4)));
     let (plane, space) = (Grid::new(&[[-1.0, 1.0]; 2], 8).expect("2-D"), Grid::new(&[[-1.0, 1.0]; 3], 8).expect("3-D"));
@@ -229,6 +234,202 @@ fn a_mesh_that_takes_too_much_memory_is_refused() {
     assert_eq!(within(enough * 3 / 4), Err(SurfaceError::Memory(enough * 3 / 4)), "known while it is sampled");
     let estimate = grid.estimated_bytes() as usize;
     assert_eq!(within(estimate - 1), Err(SurfaceError::Memory(estimate - 1)), "known before it begins");
+}
+
+#[test]
+fn what_single_precision_cannot_hold_is_a_fault_and_never_a_panic() {
+    let mesh_at = |at: f64, size: f64| {
+        let shape = shape_of(|x, y, z| sphere([at; 3], 0.7 * size, [&x, &y, &z]), 3, Demand::Sign);
+        let grid = Grid::new(&[[at - size, at + size]; 3], 20).expect("a grid");
+        extract(&shape, &grid, &Limits::default(), &Interrupt::default()).expect("a mesh").mesh
+    };
+    assert!(matches!(check(&mesh_at(1e7, 1.0)), Err(Fault::Coincident(..))));
+    assert!(matches!(check(&mesh_at(0.0, 1e60)), Err(Fault::NotFinite(_))));
+    assert!(matches!(check(&mesh_at(0.0, 1e-44)), Err(Fault::Coincident(..))));
+    for (at, size) in [(0.0, 1e-30), (0.0, 1e30), (1000.0, 1.0), (-5e4, 10.0)] {
+        assert_eq!(check(&mesh_at(at, size)).map(|t| t.euler), Ok(2), "a ball of size {size} at {at}");
+    }
+}
+
+#[test]
+fn normals_point_out_of_the_solid() {
+    for case in KNOWN {
+        let mesh = case.extract(40).mesh;
+        // At a sharp edge a sliver may stand against the normals of the faces that it joins; by area they are nothing.
+        let (mut against, mut whole) = (0.0, 0.0);
+        for &triangle in &mesh.triangles {
+            let [a, b, c] = mesh.corners(triangle);
+            let face = cross(minus(b, a), minus(c, a));
+            let area = dot(face, face).sqrt();
+            whole += area;
+            if triangle.iter().map(|&v| dot(face, mesh.normals[v as usize])).sum::<f64>() < -1e-3 * area {
+                against += area;
+            }
+        }
+        assert!(against < 1e-3 * whole, "{}: {against} of {whole} against the normals", case.name);
+    }
+    let mesh = KNOWN[0].extract(40).mesh;
+    for (p, n) in mesh.positions.iter().zip(&mesh.normals) {
+        assert!(dot(*p, *n) > 1.0 - 1e-6, "of a unit ball the normal is the position: {p:?}, {n:?}");
+    }
+}
+
+#[test]
+fn vertices_lie_on_the_boundary() {
+    for case in KNOWN {
+        let Extraction { mesh, report } = case.extract(33);
+        let grid = case.grid(33);
+        let on_face = |p: &[f64; 3]| (0..3).any(|d| p[d] == grid.lo[d] || p[d] == grid.hi[d]);
+        let values = shape_of(case.field, 3, Demand::Value);
+        let mut points = Points::<f64>::new();
+        // A step along each axis by the margin that keeps vertices off sample points must find another sign, unless the space cuts there.
+        let near = 2e-4 * grid.cell().iter().fold(0.0_f64, |a, &b| a.max(b));
+        for p in mesh.positions.iter().filter(|p| !on_face(p)) {
+            let around: Vec<[f64; 3]> = (0..6)
+                .map(|i| {
+                    let mut q = *p;
+                    q[i / 2] += if i % 2 == 0 { near } else { -near };
+                    q
+                })
+                .collect();
+            let columns: [Vec<f64>; 3] = std::array::from_fn(|d| around.iter().map(|q| q[d]).collect());
+            let mut out = vec![0.0; around.len()];
+            points.eval(&values.program, &[&columns[0], &columns[1], &columns[2]], &mut out);
+            let inside = out.iter().filter(|&&v| v >= 0.0).count();
+            assert!((1..6).contains(&inside), "{}: {p:?} is not on the boundary: {out:?}", case.name);
+        }
+        assert!(report.counters.points > 0 && report.counters.boxes > 0);
+    }
+}
+
+/// A lattice of unit steps that reaches from -counts/2 to counts/2, and a visitor that keeps what it sees.
+struct Steps {
+    counts: [usize; 3],
+    leaf: [usize; 3],
+    task: [usize; 3],
+}
+
+impl Lattice for Steps {
+    fn counts(&self) -> [usize; 3] {
+        self.counts
+    }
+    fn leaf(&self) -> [usize; 3] {
+        self.leaf
+    }
+    fn task(&self) -> [usize; 3] {
+        self.task
+    }
+    fn bounds(&self, block: &Block, out: &mut [Interval]) {
+        for (d, bounds) in out.iter_mut().enumerate() {
+            let at = |i: usize| i as f64 - self.counts[d] as f64 / 2.0;
+            *bounds = span(at(block.from[d]), at(block.to[d] - 1));
+        }
+    }
+}
+
+#[derive(Default, PartialEq, Debug)]
+struct Seen(Vec<(Block, Option<bool>)>, usize);
+
+impl Visitor for Seen {
+    fn uniform(&mut self, block: &Block, inside: bool) {
+        self.0.push((*block, Some(inside)));
+    }
+    fn leaf(&mut self, block: &Block, program: &Program, _: &mut Sampler) {
+        self.0.push((*block, None));
+        self.1 += program.len();
+    }
+}
+
+#[test]
+fn a_walk_covers_each_point_once_in_order_for_any_number_of_threads() {
+    let shape = shape_of(|x, y, z| 400.0 - (x.squared() + y.squared() + z.squared()), 3, Demand::Sign);
+    let lattices = [
+        Steps { counts: [65, 40, 33], leaf: [8; 3], task: [32; 3] },
+        Steps { counts: [70, 50, 100], leaf: [4, 4, 8], task: [16, 16, 100] },
+        Steps { counts: [5, 5, 5], leaf: [8; 3], task: [32; 3] },
+        Steps { counts: [129, 1, 1], leaf: [2, 1, 1], task: [8, 1, 1] },
+    ];
+    for lattice in lattices {
+        let of = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| walk(&lattice, &shape, |_| Seen::default(), &Interrupt::default())).expect("not cancelled")
+        };
+        let Walk { visitors, counters } = of(1);
+        let other = of(8);
+        assert_eq!((&visitors, &counters), (&other.visitors, &other.counters));
+        let mut seen = vec![0; lattice.counts.iter().product()];
+        for Seen(blocks, _) in &visitors {
+            for (block, _) in blocks {
+                for k in block.from[2]..block.to[2] {
+                    for j in block.from[1]..block.to[1] {
+                        let row = lattice.counts[0] * (j + lattice.counts[1] * k);
+                        seen[row + block.from[0]..row + block.to[0]].iter_mut().for_each(|n| *n += 1);
+                    }
+                }
+            }
+            for pair in blocks.windows(2) {
+                let is_shared =
+                    (0..2).all(|d| pair[0].0.from[d] < pair[1].0.to[d] && pair[1].0.from[d] < pair[0].0.to[d]);
+                assert!(!is_shared || pair[0].0.to[2] <= pair[1].0.from[2], "front to back: {pair:?}");
+            }
+        }
+        assert!(seen.iter().all(|&n| n == 1), "each point once");
+    }
+}
+
+#[test]
+fn a_visitor_that_wants_nothing_is_left_alone() {
+    struct Idle;
+    impl Visitor for Idle {
+        fn wants(&mut self, _: &Block) -> bool {
+            false
+        }
+        fn uniform(&mut self, _: &Block, _: bool) {}
+        fn leaf(&mut self, block: &Block, _: &Program, _: &mut Sampler) {
+            panic!("{block:?} was visited");
+        }
+    }
+    let grid = KNOWN[0].grid(100);
+    let interrupt = Interrupt::default();
+    let done = walk(&grid, &KNOWN[0].shape(), |_| Idle, &interrupt).expect("not cancelled");
+    assert_eq!(done.counters.points, 0);
+    assert_eq!(interrupt.progress(), (101 * 101 * 101, 101 * 101 * 101));
+}
+
+#[test]
+fn programs_get_shorter_on_the_way_down() {
+    let field = |x: Ex, y: Ex, z: Ex| {
+        let mut all = x.constant(-1.0);
+        for i in 0..200 {
+            let at = [0, 1, 2].map(|d| f64::from((i * [7, 11, 13][d]) % 41) / 20.0 - 1.0);
+            all = all.ternary(Ternary::Union, &sphere(at, 0.1, [&x, &y, &z]), 0.0);
+        }
+        all
+    };
+    let shape = shape_of(field, 3, Demand::Sign);
+    let grid = Grid::new(&[[-1.2, 1.2]; 3], 128).expect("a grid");
+    let done = walk(&grid, &shape, |_| Seen::default(), &Interrupt::default()).expect("not cancelled");
+    let leaves = done.visitors.iter().flat_map(|v| &v.0).filter(|(_, decided)| decided.is_none()).count();
+    let operations: usize = done.visitors.iter().map(|v| v.1).sum();
+    let (mean, whole) = (operations / leaves, shape.program.len());
+    assert!(mean * 20 < whole, "{mean} operations in a leaf of {whole}");
+}
+
+#[test]
+fn work_that_has_begun_can_be_stopped() {
+    let interrupt = Interrupt::default();
+    let work = {
+        let interrupt = interrupt.clone();
+        std::thread::spawn(move || {
+            let case = &KNOWN[0];
+            extract(&case.shape(), &case.grid(1800), &Limits::default(), &interrupt).err()
+        })
+    };
+    while interrupt.progress().0 == 0 {
+        std::thread::yield_now();
+    }
+    interrupt.cancel();
+    assert_eq!(work.join().expect("no panic"), Some(SurfaceError::Cancelled));
 }
 
 #[test]

@@ -1,13 +1,12 @@
-//! The function itself as values: at given points, or sampled on the modelling space's grid.
+//! The function itself as values at given points.
 
 use crate::diagnostic::Diagnostic;
 use crate::field::{Coordinate, Graph};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
-use crate::surface::grid::Grid;
 use crate::vm::block::Points;
 use crate::vm::gradient::Gradients;
-use crate::vm::{Demand, Program, Shape};
+use crate::vm::{Demand, Program};
 
 use super::subject::Subject;
 
@@ -92,33 +91,4 @@ impl<'a> Sampling<'a> {
             }
         }
     }
-}
-
-/// The function on the corners of a grid's cells, x1 fastest, in single precision as volume files hold it.
-///
-/// # Errors
-/// [`Cancelled`].
-pub fn on_grid(shape: &Shape, grid: &Grid, interrupt: &Interrupt) -> Result<Vec<f32>, Cancelled> {
-    use rayon::prelude::*;
-    let counts = grid.cells.map(|n| n + 1);
-    let row = counts[0];
-    let mut all = vec![0.0_f32; counts.iter().product()];
-    interrupt.begin((counts[1] * counts[2]) as u64);
-    let xs: Vec<f64> = (0..row).map(|i| grid.coordinate(0, i)).collect();
-    all.par_chunks_mut(row).enumerate().try_for_each_init(
-        || (Points::new(), vec![0.0; row], vec![vec![0.0; row]; shape.dimension - 1 + shape.fixed.len()]),
-        |(points, values, rest), (index, out)| {
-            interrupt.tick()?;
-            let (j, k) = (index % counts[1], index / counts[1]);
-            let along = [grid.coordinate(1, j), grid.coordinate(2, k)];
-            let constants = along[..shape.dimension - 1].iter().chain(&shape.fixed);
-            rest.iter_mut().zip(constants).for_each(|(column, c)| column.fill(*c));
-            let columns: Vec<&[f64]> = std::iter::once(xs.as_slice()).chain(rest.iter().map(Vec::as_slice)).collect();
-            points.eval(&shape.program, &columns, values);
-            out.iter_mut().zip(values.iter()).for_each(|(out, v)| *out = *v as f32);
-            interrupt.advance(1);
-            Ok(())
-        },
-    )?;
-    Ok(all)
 }

@@ -11,6 +11,7 @@ use crate::host::Host;
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
 use crate::picture::Image;
+use crate::picture::field::sample;
 use crate::surface::check::{Topology, check};
 use crate::surface::marching::{Extraction, SurfaceError, extract};
 use crate::surface::mesh::Mesh;
@@ -19,7 +20,7 @@ use crate::vm::{Demand, Shape};
 
 use super::output::{Format, Kind, Output, Target, numbered};
 use super::subject::Subject;
-use super::{Options, fields, pictures};
+use super::{Options, pictures};
 
 /// What was written, and what there is to say of it.
 #[derive(Debug, Default)]
@@ -158,23 +159,28 @@ impl Making<'_> {
     }
 
     fn samples(&mut self) -> Result<(), Diagnostic> {
-        let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
-        let axes = self.subject.axes.len();
-        let size: Vec<usize> = grid.cells[..axes].iter().map(|n| n + 1).collect();
-        self.subject.within_memory(4 * size.iter().map(|&n| n as u64).product::<u64>(), self.shop.limits)?;
+        let cells = self.subject.along(self.options.view.cells)?;
+        let space: Vec<(f64, f64)> = self.subject.bounds().iter().map(|[lo, hi]| (*lo, *hi)).collect();
+        if space.is_empty() {
+            return self.need(3, "a sampled field");
+        }
+        let longest = space.iter().map(|(lo, hi)| hi - lo).fold(0.0, f64::max);
+        let samples: f64 = space.iter().map(|(lo, hi)| (hi - lo) / longest * cells as f64 + 2.0).product();
+        self.subject.within_memory((4.0 * samples) as u64, self.shop.limits)?;
         let shape = self.shape(Demand::Value)?;
         for (n, moment) in self.moments().into_iter().enumerate() {
             let begun = Instant::now();
-            let values = fields::on_grid(&self.subject.at(&shape, moment), &grid, self.shop.interrupt)?;
-            let what: Vec<String> = size.iter().map(ToString::to_string).collect();
-            self.line(n, &format!("{} samples", what.join(" x ")), begun);
-            let field = export::nrrd::Field {
-                size: &size,
-                origin: &grid.lo[..axes],
-                spacing: &grid.cell()[..axes],
-                samples: export::nrrd::Samples::Singles(&values),
+            let field = sample(&self.subject.at(&shape, moment), &space, cells, self.shop.interrupt)?;
+            self.undefined(&field.counters);
+            let size: Vec<String> = field.size.iter().map(ToString::to_string).collect();
+            self.line(n, &format!("{} samples", size.join(" x ")), begun);
+            let written = export::nrrd::Field {
+                size: &field.size,
+                origin: &field.origin,
+                spacing: &field.spacing,
+                samples: export::nrrd::Samples::Singles(&field.samples),
             };
-            self.put(n, &mut |out| export::nrrd::write(&field, export::nrrd::Encoding::Gzip, &mut { out }))?;
+            self.put(n, &mut |out| export::nrrd::write(&written, export::nrrd::Encoding::Gzip, &mut { out }))?;
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use crate::diagnostic::{Category, Diagnostic};
 use crate::interrupt::Interrupt;
 use crate::picture::animation::Frames;
 use crate::picture::camera::{Camera, View};
-use crate::picture::extent::extent;
+use crate::picture::extent::Extent;
 use crate::picture::palette::Palette;
 use crate::picture::plot::{Fill, Window, plot};
 use crate::picture::raycast::{Picture, Space, Style, framed, raycast};
@@ -104,11 +104,11 @@ fn camera(
             .help(format!("choose one of {}, or azimuth,elevation in degrees: `30,20`", names.join(", ")))
     })?;
     let input = subject.time.as_ref().and_then(|t| subject.fixed.iter().position(|f| f.0 == t.coordinate));
-    let framed_space = match input {
+    let extent = match input {
         Some(input) => Frames { shape, input, values: moments, space }.extent(interrupt)?,
-        None => extent(shape, space, interrupt)?.unwrap_or(space),
+        None => Extent::of(shape, space, interrupt)?,
     };
-    Ok(framed(&view, framed_space, style))
+    Ok(framed(&view, &extent, style))
 }
 
 fn size(picture: &PictureOptions, bounds: &[[f64; 2]], shop: &Workshop<'_>) -> Result<[usize; 2], Diagnostic> {

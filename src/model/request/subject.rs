@@ -86,19 +86,29 @@ impl Subject {
     /// # Errors
     /// If it has no extent, or more cells than can be numbered or than the memory holds.
     pub fn grid(&self, cells: Cells, limits: &Limits) -> Result<Grid, Diagnostic> {
-        let bounds = self.bounds();
-        let longest = bounds.iter().map(|[lo, hi]| hi - lo).fold(0.0, f64::max);
-        let count = match cells {
-            Cells::Along(count) => count,
-            Cells::Length(length) if length > 0.0 && length.is_finite() => (longest / length).ceil().min(1e9) as usize,
-            Cells::Length(length) => {
-                let title = format!("a cell cannot have the length {length}");
-                return Err(Diagnostic::error("cell-length", title).category(Category::Usage));
-            }
-        };
-        let grid = Grid::new(&bounds, count).map_err(|error| self.no_grid(error))?;
+        let grid = Grid::new(&self.bounds(), self.along(cells)?).map_err(|error| self.no_grid(error))?;
         self.within_memory(grid.estimated_bytes(), limits)?;
         Ok(grid)
+    }
+
+    /// Cells along the longest side.
+    ///
+    /// # Errors
+    /// If the length of a cell makes no sense, or there would be too many.
+    pub fn along(&self, cells: Cells) -> Result<usize, Diagnostic> {
+        let longest = self.bounds().iter().map(|[lo, hi]| hi - lo).fold(0.0, f64::max);
+        match cells {
+            Cells::Along(count) if (1..=MOST_CELLS).contains(&count) => Ok(count),
+            Cells::Along(count) => Err(self.no_grid(GridError::Resolution(count))),
+            Cells::Length(length) if length > 0.0 && length.is_finite() => {
+                let count = (longest / length).ceil().min(1e9) as usize;
+                if count <= MOST_CELLS { Ok(count) } else { Err(self.no_grid(GridError::Resolution(count))) }
+            }
+            Cells::Length(length) => {
+                let title = format!("a cell cannot have the length {length}");
+                Err(Diagnostic::error("cell-length", title).category(Category::Usage))
+            }
+        }
     }
 
     /// Refuses what would take more memory than the limits allow.
@@ -119,7 +129,7 @@ impl Subject {
     fn no_grid(&self, error: GridError) -> Diagnostic {
         let category = match error {
             GridError::Resolution(_) => Category::Usage,
-            GridError::Dimension(_) | GridError::Bounds(_) => Category::Program,
+            GridError::Dimension(_) | GridError::Bounds(_) | GridError::TooFine(_) => Category::Program,
         };
         match error {
             GridError::Bounds(axis) => {
@@ -127,6 +137,11 @@ impl Subject {
                 let title = format!("the modelling space has no extent along {c}: from {lo} to {hi}");
                 let help = format!("give a range: `{c}min = -1; {c}max = 1;`, or --bounds {c}=-1:1");
                 Diagnostic::error("no-extent", title).help(help)
+            }
+            GridError::TooFine(axis) => {
+                let Axis { coordinate: c, range: [lo, hi] } = self.axes[axis];
+                let title = format!("the cells along {c} ({lo} to {hi}) are too small for doubles of that size");
+                Diagnostic::error("too-fine", title).help(format!("lower --resolution, or move the space towards {c} = 0"))
             }
             GridError::Dimension(n) => {
                 let title =

@@ -7,14 +7,6 @@ pub(super) fn quick_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, b - (sum - a))
 }
 
-/// a - b and its error.
-#[inline(always)]
-pub(super) fn difference(a: f64, b: f64) -> (f64, f64) {
-    let d = a - b;
-    let of_b = d - a;
-    (d, (a - (d - of_b)) - (b + of_b))
-}
-
 /// The upper half of the digits, and the rest; |a| below 1e300.
 #[inline(always)]
 fn split(a: f64) -> (f64, f64) {

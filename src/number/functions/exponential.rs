@@ -54,12 +54,18 @@ const LEAST: u64 = 0x3fe6_a09e_667f_3bcd;
 #[inline(always)]
 fn decomposed(x: f64) -> (f64, f64) {
     let small = x < f64::MIN_POSITIVE;
-    let bits = (if small { x * power_of_two(54) } else { x }).to_bits();
-    let shifted = bits.wrapping_add(0x3ff0_0000_0000_0000 - LEAST);
+    let (f, k) = split_normal(if small { x * power_of_two(54) } else { x });
+    (f, k - if small { 54.0 } else { 0.0 })
+}
+
+/// The same for numbers that are not subnormal.
+#[inline(always)]
+pub(super) fn split_normal(x: f64) -> (f64, f64) {
+    let shifted = x.to_bits().wrapping_add(0x3ff0_0000_0000_0000 - LEAST);
     let mantissa = (shifted & 0x000f_ffff_ffff_ffff).wrapping_add(LEAST);
     // The exponent's bits below those of 2^52 make it a double without a conversion.
     let k = f64::from_bits((shifted >> 52) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0);
-    (f64::from_bits(mantissa) - 1.0, k - if small { 54.0 } else { 0.0 })
+    (f64::from_bits(mantissa) - 1.0, k)
 }
 
 /// The parts of log(1 + f): s = f/(2 + f), f^2/2 and the rest of the series.
@@ -76,7 +82,7 @@ fn series(f: f64) -> (f64, f64, f64) {
 
 /// The logarithm `value` of x, put right at 0, infinity and where x has none.
 #[inline(always)]
-fn at_the_ends(x: f64, value: f64) -> f64 {
+pub(super) fn at_the_ends(x: f64, value: f64) -> f64 {
     let value = if x > 0.0 { value } else { f64::NAN };
     let value = if x == 0.0 { f64::NEG_INFINITY } else { value };
     if x == f64::INFINITY { x } else { value }
@@ -119,10 +125,9 @@ fn log_double(x: f64) -> (f64, f64) {
     let s_low = (((f - p) - p_low) - s * under_low) / under;
     let (z, z_low) = product(s, s);
     let z_low = z_low + 2.0 * s * s_low;
-    let mut tail = 2.0 / 25.0;
-    for n in [23.0, 21.0, 19.0, 17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0] {
-        tail = 2.0 / n + z * tail;
-    }
+    let tail = 2.0 / 19.0 + z * (2.0 / 21.0 + z * (2.0 / 23.0 + z * (2.0 / 25.0)));
+    let tail = 2.0 / 13.0 + z * (2.0 / 15.0 + z * (2.0 / 17.0 + z * tail));
+    let tail = 2.0 / 5.0 + z * (2.0 / 7.0 + z * (2.0 / 9.0 + z * (2.0 / 11.0 + z * tail)));
     const THIRDS: (f64, f64) = (2.0 / 3.0, 3.700_743_415_417_188e-17);
     let (c, c_low) = quick_sum(THIRDS.0, z * tail);
     let c_low = c_low + THIRDS.1;

@@ -11,6 +11,7 @@ mod double;
 mod exponential;
 mod hyperbolic;
 mod inverse;
+mod single;
 mod trigonometric;
 
 pub use exponential::{exp, log, log10, pow};
@@ -19,12 +20,51 @@ pub use inverse::{acos, asin, atan, atan2};
 pub use libm::{asinh, atanh, cbrt};
 pub use trigonometric::{NEAR, cos, cos_near, sin, sin_near, tan, tan_near};
 
-/// The inverse hyperbolic cosine, within 2 units in the last place; undefined below 1.
+/// The inverse hyperbolic cosine, within 3 units in the last place; undefined below 1.
 #[inline(always)]
 #[must_use]
 pub fn acosh(x: f64) -> f64 {
     // The library gives a number there.
     if x < 1.0 { f64::NAN } else { libm::acosh(x) }
+}
+
+/// An elementary function of a double; angles up to [`NEAR`].
+#[inline(always)]
+pub(super) fn near(op: Unary, x: f64) -> f64 {
+    match op {
+        Unary::Cbrt => cbrt(x),
+        Unary::Exp => exp(x),
+        Unary::Log => log(x),
+        Unary::Log10 => log10(x),
+        Unary::Sin => sin_near(x),
+        Unary::Cos => cos_near(x),
+        Unary::Tan => tan_near(x),
+        Unary::Asin => asin(x),
+        Unary::Acos => acos(x),
+        Unary::Atan => atan(x),
+        Unary::Sinh => sinh(x),
+        Unary::Cosh => cosh(x),
+        Unary::Tanh => tanh(x),
+        Unary::Asinh => asinh(x),
+        Unary::Acosh => acosh(x),
+        Unary::Atanh => atanh(x),
+        _ => f64::NAN,
+    }
+}
+
+/// An elementary function of a single; angles up to [`NEAR`]. Those without a kernel of their own are rounded from doubles.
+#[inline(always)]
+#[allow(clippy::cast_possible_truncation)]
+pub(super) fn near_single(op: Unary, x: f32) -> f32 {
+    match op {
+        Unary::Exp => single::exp(x),
+        Unary::Log => single::log(x),
+        Unary::Log10 => single::log10(x),
+        Unary::Sin => single::sin(x),
+        Unary::Cos => single::cos(x),
+        Unary::Tan => single::tan(x),
+        _ => near(op, f64::from(x)) as f32,
+    }
 }
 
 /// The error bound of a function of one number, in units in the last place of the result.
@@ -38,8 +78,8 @@ pub const fn error(op: Unary) -> f64 {
         Unary::Exp | Unary::Log | Unary::Log10 | Unary::Sin | Unary::Cos | Unary::Asin | Unary::Acos | Unary::Cbrt => {
             1.0
         }
-        Unary::Tan | Unary::Atan | Unary::Sinh | Unary::Cosh | Unary::Asinh | Unary::Acosh | Unary::Atanh => 2.0,
-        Unary::Tanh => 3.0,
+        Unary::Tan | Unary::Atan | Unary::Sinh | Unary::Cosh | Unary::Asinh | Unary::Atanh => 2.0,
+        Unary::Tanh | Unary::Acosh => 3.0,
     }
 }
 

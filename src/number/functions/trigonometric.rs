@@ -1,7 +1,7 @@
 //! Sine, cosine and tangent. Angles up to [`NEAR`] are reduced here by a three-part multiple of pi/2, without branches; beyond
 //! it the `libm` crate does it.
 
-use super::double::{difference, nearest};
+use super::double::{nearest, quick_sum};
 
 /// Up to this magnitude angles are reduced without branches: 2^20.
 pub const NEAR: f64 = 1_048_576.0;
@@ -19,8 +19,9 @@ const PART: [f64; 4] = [
 fn reduced(angle: f64) -> (f64, f64, u64) {
     let (n, quadrant) = nearest(angle * std::f64::consts::FRAC_2_PI);
     let first = angle - n * PART[0];
-    let (second, lost) = difference(first, n * PART[1]);
-    let (high, low) = difference(second, n * PART[2]);
+    // Where the second term is the larger one the first has so few digits left that the difference is exact.
+    let (second, lost) = quick_sum(first, -n * PART[1]);
+    let (high, low) = quick_sum(second, -n * PART[2]);
     (high, low + (lost - n * PART[3]), quadrant)
 }
 
@@ -29,7 +30,7 @@ fn reduced(angle: f64) -> (f64, f64, u64) {
 fn sine(x: f64, y: f64) -> f64 {
     let z = x * x;
     let w = z * z;
-    let r = 8.333_333_333_322_489e-3
+    let r = 8.333_333_333_322_49e-3
         + z * (-1.984_126_982_985_795e-4 + z * 2.755_731_370_707_006_8e-6)
         + z * w * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10);
     let v = z * x;
@@ -50,7 +51,7 @@ fn cosine(x: f64, y: f64) -> f64 {
 
 /// The sign bit where bit 1 of `quadrant` is set.
 #[inline(always)]
-fn turned(value: f64, quadrant: u64) -> f64 {
+pub(super) fn turned(value: f64, quadrant: u64) -> f64 {
     f64::from_bits(value.to_bits() ^ ((quadrant & 2) << 62))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::syntax::tree::Ident;
+use crate::syntax::tree::{Expr, ExprKind, Ident};
 
 /// `1e999`
 pub fn number_too_large(span: Span) -> Diagnostic {
@@ -116,10 +116,31 @@ pub fn equality_defined(name: &Ident, whole: Span) -> Diagnostic {
         .help("write `==` if that is meant; to define two names, write two statements")
 }
 
-/// `3 = a;`
-pub fn only_names(span: Span, what: &str) -> Diagnostic {
-    Diagnostic::error("only-names", format!("{what} cannot be defined"))
+/// `3 = a;`, `x1 = 3;`, `f(1) = 2;`: what stands before the `=` cannot be defined.
+pub fn no_definition(text: &str, subject: &Expr) -> Diagnostic {
+    let shown = &text[subject.span.range()];
+    match &subject.kind {
+        ExprKind::Coordinate(_) => defined_coordinate(shown, subject.span),
+        ExprKind::Call { callee, arguments } => {
+            let wrong =
+                arguments.iter().find(|a| !matches!(a.kind, ExprKind::Name(_))).map_or(subject.span, |a| a.span);
+            Diagnostic::error("parameter-form", format!("`{}` is no name of a parameter", &text[wrong.range()]))
+                .at(wrong, "a name is expected here")
+                .see(callee.span, "defined here")
+                .help(format!("write {}(a, b) = expression; with names of your own", callee.name))
+                .help("write `==` to ask whether two values are equal")
+        }
+        _ => Diagnostic::error("only-names", format!("`{shown}` cannot be defined"))
+            .at(subject.span, "")
+            .help("a definition begins with a name: name = expression;")
+            .help("write `==` to ask whether two values are equal"),
+    }
+}
+
+/// `x1 = 3;`
+pub fn defined_coordinate(word: &str, span: Span) -> Diagnostic {
+    Diagnostic::error("defined-coordinate", format!("`{word}` is a coordinate and cannot be defined"))
         .at(span, "")
-        .help("a definition begins with a name: name = expression;")
-        .help("write `==` to ask whether two values are equal")
+        .help(format!("to fix it write `{word} : CONSTANT = 0.5;` or `... AT ({word} = 0.5)`"))
+        .help(format!("its range is {word}min and {word}max"))
 }

@@ -42,6 +42,7 @@ impl<'t> Place<'t> {
 }
 
 /// The index of the token after a head `name =`, `name(...) =` or `name[...] =` that begins at token `at`, if one does.
+/// `:=` counts, since it is what other languages write.
 pub fn definition_head(text: &str, tokens: &[Token], at: usize) -> Option<usize> {
     let word = tokens.get(at).filter(|t| t.kind == TokenKind::Word)?;
     if is_reserved(word.text(text)) {
@@ -56,6 +57,7 @@ pub fn definition_head(text: &str, tokens: &[Token], at: usize) -> Option<usize>
             TokenKind::Close => depth = depth.checked_sub(1)?,
             TokenKind::Semicolon => return None,
             _ if depth > 0 => {}
+            _ if token.text(text) == ":" && tokens.get(next + 1).is_some_and(|t| t.text(text) == "=") => {}
             _ => return (token.kind == TokenKind::Symbol && token.text(text) == "=").then_some(next + 1),
         }
         next += 1;
@@ -152,4 +154,29 @@ pub fn last_token_end(text: &str, start: usize, end: usize) -> usize {
 pub fn with_semicolon(text: &str, from: usize, end: usize) -> usize {
     let next = Scanner::new(text, from, end).find(|t| t.kind != TokenKind::Comment);
     next.filter(|t| t.kind == TokenKind::Semicolon).map_or(from, |t| t.end)
+}
+
+/// The statement of a block that holds byte `at`, as a range of bytes without its `;`; `None` outside blocks.
+///
+/// What an IF, WHILE or FOR governs belongs to its statement, so that blanking the range leaves a block that parses.
+pub fn statement_in_block(place: Place<'_>, at: usize) -> Option<(usize, usize)> {
+    let text = place.text;
+    let tokens = place.tokens();
+    let mut starts: Vec<usize> = Vec::new();
+    for (n, token) in tokens.iter().enumerate() {
+        let otherwise = tokens.get(n + 1).is_some_and(|t| t.is_word(text, "ELSE"));
+        let ends = token.kind == TokenKind::Semicolon && !otherwise;
+        let closes = token.is_word(text, "END");
+        if token.start >= at && (ends || closes) && !starts.is_empty() {
+            return starts.last().filter(|&&start| start <= at).map(|&start| (start, token.start));
+        }
+        if token.is_word(text, "BEGIN") {
+            starts.push(token.end);
+        } else if closes {
+            starts.pop();
+        } else if let Some(start) = starts.last_mut().filter(|_| ends) {
+            *start = token.end;
+        }
+    }
+    None
 }

@@ -64,7 +64,7 @@ pub fn fault(place: Place<'_>, fault: Fault) -> Diagnostic {
         FaultKind::UnclosedText => Diagnostic::error("unclosed-text", "this text is not closed on its line")
             .at(place.range(fault.start, fault.start + 1), "opened here")
             .help("add `\"` where the text ends"),
-        FaultKind::Bad | FaultKind::TooDeep => bad(span, found),
+        FaultKind::Bad | FaultKind::TooDeep => bad(place, span, found),
     }
     .category(Category::Program)
 }
@@ -86,7 +86,11 @@ fn stray(place: Place<'_>, span: Span, found: &str) -> Diagnostic {
 }
 
 /// A character that the language does not know, with what may be meant.
-fn bad(span: Span, found: &str) -> Diagnostic {
+fn bad(place: Place<'_>, span: Span, found: &str) -> Diagnostic {
+    if place.tokens().first().is_some_and(|t| t.is_word(place.text, "INCLUDE")) {
+        return super::stop::include_form(span);
+    }
+    let behind_name = place.text[..span.start as usize].ends_with(|c: char| c.is_alphabetic() || c == '_');
     let meant = match found {
         "\u{2212}" | "\u{2013}" | "\u{2014}" | "\u{2010}" | "\u{2011}" => "`-`",
         "\u{d7}" | "\u{b7}" | "\u{22c5}" => "`*`",
@@ -101,6 +105,7 @@ fn bad(span: Span, found: &str) -> Diagnostic {
         "%" => "MOD(a, b) for the remainder",
         "#" => "`// ...` or `{ ... }` for a comment",
         "}" => "`{` where the comment begins",
+        "." if behind_name => "`_` in a name, or `[i]` for an element",
         "." => "a digit before or after the point",
         "?" => "IF c THEN a ELSE b",
         "\u{b2}" => "`**2`",

@@ -58,9 +58,10 @@ impl<'t> Around<'t> {
 pub fn forgotten_semicolon(place: Place<'_>, at: usize) -> Option<Forgotten> {
     let around = Around::new(place, at);
     let (before, here) = (around.before()?, around.here()?);
+    let apart = before.end < here.start || before.kind != TokenKind::Number;
     let ends = before.ends_operand(place.text) || before.is_word(place.text, "END");
     let begins = begins_statement(place.text, &around.tokens, around.at);
-    (ends && begins).then_some(Forgotten { after: before.end, statement: here.start })
+    (ends && begins && apart).then_some(Forgotten { after: before.end, statement: here.start })
 }
 
 /// The message about a forgotten `;`.
@@ -172,10 +173,7 @@ fn head(around: &Around<'_>) -> Option<Diagnostic> {
     let span = around.place.span(token);
     let heads = token.kind == TokenKind::Word && definition_head(text, &around.tokens, around.at).is_some();
     if heads && coordinate_digits(word).is_some() && around.before().is_none_or(|t| !t.ends_operand(text)) {
-        let help =
-            "to fix a coordinate write `x1 : CONSTANT = 0.5;` or `... AT (x1 = 0.5)`; its range is x1min and x1max";
-        let title = format!("`{word}` is a coordinate and cannot be defined");
-        return Some(error("defined-coordinate", title).at(span, "").help(help));
+        return Some(super::form::defined_coordinate(word, span));
     }
     if token.kind == TokenKind::Word && is_reserved(word) && assigned(around.at + 1) {
         return Some(reserved(around, token));
@@ -220,7 +218,14 @@ fn keyword(around: &Around<'_>) -> Option<Diagnostic> {
                 .at(span, "")
                 .help("put the expression and its WHERE in parentheses: (e WHERE q = ...)")
         }
-        "ELSE" => error("stray-else", "this ELSE has no IF").at(span, "").help("write IF condition THEN ... ELSE ..."),
+        "ELSE" => error("stray-else", "this ELSE has no IF")
+            .at(span, "")
+            .help("write IF condition THEN ... ELSE ...")
+            .help("several statements between THEN and ELSE need BEGIN ... END"),
+        "IN" => range_form(span),
+        "BEGIN" => error("stray-begin", "this BEGIN belongs to nothing")
+            .at(span, "")
+            .help("a block stands behind THEN, ELSE, DO or `name(...) =`"),
         "THEN" | "DO" | "TO" | "END" if complete => {
             let opener = match upper.as_str() {
                 "THEN" => "IF",
@@ -251,14 +256,16 @@ fn between(around: &Around<'_>) -> Option<Diagnostic> {
     let Some(token) = around.here() else { return Some(ends(around, complete)) };
     let span = around.place.span(token);
     let found = token.text(text);
+    if complete && let Some(diagnostic) = separated(around, token) {
+        return Some(diagnostic);
+    }
     let operand = matches!(token.kind, TokenKind::Number | TokenKind::Word | TokenKind::Text)
         || (token.kind == TokenKind::Open && found == "(");
     if complete && operand {
         let last = before?;
         let title = format!("an operator is missing between `{}` and `{found}`", last.text(text));
-        let product =
-            if last.end == token.start { "for a product write `*` between" } else { "put an operator or `;` between" };
-        return Some(error("missing-operator", title).at(span, "").see(around.place.span(last), "").help(product));
+        let help = separator(around, last, token);
+        return Some(error("missing-operator", title).at(span, "").see(around.place.span(last), "").help(help));
     }
     if around.is(before, "AT") {
         return Some(
@@ -266,11 +273,7 @@ fn between(around: &Around<'_>) -> Option<Diagnostic> {
         );
     }
     if around.is(before, "INCLUDE") {
-        return Some(
-            error("include-form", "INCLUDE needs a file name in quotes")
-                .at(span, "")
-                .help("write INCLUDE \"file.geo\";"),
-        );
+        return Some(include_form(span));
     }
     if around.word(before) == ":" {
         return Some(type_word(around, token));
@@ -287,6 +290,70 @@ fn between(around: &Around<'_>) -> Option<Diagnostic> {
         return Some(error("missing-expression", title).at(span, "an expression is expected here").help(help));
     }
     None
+}
+
+/// The bracket that is open at the place, and the word right before it.
+fn enclosing<'t>(around: &Around<'t>) -> Option<(&'t str, &'t str)> {
+    let mut depth = 0_usize;
+    for (n, token) in around.tokens[..around.at].iter().enumerate().rev() {
+        match token.kind {
+            TokenKind::Close => depth += 1,
+            TokenKind::Open if depth == 0 => {
+                let before = n.checked_sub(1).map(|n| around.tokens[n]).filter(|t| t.kind == TokenKind::Word);
+                return Some((token.text(around.place.text), around.word(before)));
+            }
+            TokenKind::Open => depth -= 1,
+            _ => {}
+        }
+    }
+    None
+}
+
+/// What may stand between two operands.
+fn separator(around: &Around<'_>, last: Token, token: Token) -> &'static str {
+    match enclosing(around) {
+        _ if last.kind == TokenKind::Number && token.kind == TokenKind::Number && last.end == token.start => {
+            "a number has one point"
+        }
+        _ if last.end == token.start => "for a product write `*` between",
+        Some((bracket, word)) if bracket == "[" || !word.is_empty() => "put an operator or `,` between",
+        Some(_) => "put an operator between",
+        None => "put an operator or `;` between",
+    }
+}
+
+/// `(1, 2)`, `IN [1]`, `4 STEP 3`: forms that are nearly right.
+fn separated(around: &Around<'_>, token: Token) -> Option<Diagnostic> {
+    let text = around.place.text;
+    let span = around.place.span(token);
+    if token.is_word(text, "STEP") {
+        return Some(range_form(span));
+    }
+    match (token.text(text), enclosing(around)?) {
+        ("]" | ",", ("[", word)) if word.eq_ignore_ascii_case("IN") => Some(range_form(span)),
+        (",", ("(", word)) if word.is_empty() || is_reserved(word) => Some(
+            error("unexpected", "`,` cannot stand in these parentheses").at(span, "").help("for an array write [1, 2]"),
+        ),
+        _ => None,
+    }
+}
+
+fn range_form(span: crate::source::Span) -> Diagnostic {
+    error("range-form", "a range is written IN [smallest, largest] STEP step")
+        .at(span, "")
+        .help("write r1 = 4 IN [1, 8] STEP 0.5;")
+}
+
+/// `INCLUDE file.geo`
+pub fn include_form(span: crate::source::Span) -> Diagnostic {
+    error("include-form", "INCLUDE needs a file name in quotes").at(span, "").help("write INCLUDE \"file.geo\";")
+}
+
+/// The grammar gave up, which only a text of monstrous shape can make it do.
+pub fn gave_up(place: Place<'_>) -> Diagnostic {
+    error("too-complex", "this statement is too complex to read")
+        .at(place.range(place.start, place.start), "it begins here")
+        .help("give parts of it names of their own")
 }
 
 /// What two symbols in a row may mean elsewhere.
@@ -318,7 +385,9 @@ fn ends(around: &Around<'_>, complete: bool) -> Diagnostic {
     let last = around.word(around.before());
     let (span, text) = here(around, "something is missing behind this");
     if complete {
-        return error("unfinished-statement", format!("the statement is not finished after `{last}`")).at(span, text);
+        return error("unfinished-statement", format!("the statement is not finished after `{last}`"))
+            .at(span, text)
+            .help("write the rest of it");
     }
     error("missing-expression", format!("the statement ends after `{last}`, where an expression is expected"))
         .at(span, text)

@@ -44,15 +44,14 @@ impl<'t> Builder<'t> {
         }
     }
 
+    /// A bare expression. One that begins like a definition but cannot be one is an error: `f(1) = 3`, `x1 = 3`.
     fn bare(&mut self, value: P<'t>) -> StatementKind {
         let value = self.value(value);
         if let ExprKind::Compare { first, rest } = &value.kind
             && let Some(at) = rest.first().map(|r| r.1)
             && self.text.get(at.range()) == Some("=")
-            && matches!(first.kind, ExprKind::Number(_) | ExprKind::Pi | ExprKind::Text(_))
         {
-            let what = format!("`{}`", &self.text[first.span.range()]);
-            self.diagnostics.push(explain::only_names(first.span, &what));
+            self.diagnostics.push(explain::no_definition(self.text, first));
         }
         StatementKind::Expression(value)
     }

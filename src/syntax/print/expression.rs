@@ -9,6 +9,7 @@ use super::{WIDTH, open_if};
 const IF: u8 = 1;
 const NOT: u8 = 4;
 const COMPARE: u8 = 5;
+const SUM: u8 = 8;
 const SIGN: u8 = 10;
 const POWER: u8 = 11;
 const POSTFIX: u8 = 12;
@@ -89,10 +90,15 @@ impl<'t> Writer<'t> {
         self.push(close);
     }
 
+    /// Bytes of the line so far.
+    fn column(&self) -> usize {
+        self.out.len() - self.out.rfind('\n').map_or(0, |n| n + 1)
+    }
+
     /// A definition's expression, broken into lines if it is too long for one.
     pub fn broken(&mut self, e: &Expr, indent: usize) {
         let start = self.out.len();
-        let column = start - self.out.rfind('\n').map_or(0, |n| n + 1);
+        let column = self.column();
         self.value(e);
         if column + (self.out.len() - start) > WIDTH {
             self.out.truncate(start);
@@ -126,9 +132,15 @@ impl<'t> Writer<'t> {
                 let level = rest.first().map_or(POSTFIX, |r| r.0.level());
                 self.operand(first, level + 1);
                 for (op, _, operand) in rest {
-                    self.line(indent);
-                    self.push(chain_op(*op).trim_start());
+                    let start = self.out.len();
+                    self.push(chain_op(*op));
                     self.operand(operand, level + 1);
+                    // Terms of a sum fill the line; objects stand one a line.
+                    if level < SUM || self.column() > WIDTH {
+                        let term = self.out.split_off(start);
+                        self.line(indent);
+                        self.push(term.trim_start());
+                    }
                 }
             }
             ExprKind::Array(items) => self.filled("[", items, "]", indent),
@@ -152,9 +164,8 @@ impl<'t> Writer<'t> {
                 self.push(", ");
             }
             let start = self.out.len();
-            let line = self.out.rfind('\n').map_or(0, |n| n + 1);
             self.expr(item);
-            if self.out.len() + 2 - line > WIDTH && n > 0 {
+            if self.column() + 1 > WIDTH && n > 0 {
                 let item = self.out.split_off(start);
                 self.out.truncate(self.out.trim_end().len());
                 self.line(indent);

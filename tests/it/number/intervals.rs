@@ -26,7 +26,7 @@ fn range(random: &mut Random) -> Interval {
 
 /// A value of the box: its ends, its zero, its whole numbers, or any.
 fn member(random: &mut Random, of: Interval) -> f64 {
-    if of.is_empty() || (of.undefined && random.bits() % 4 == 0) {
+    if of.is_empty() || (of.undefined && random.once_in(4)) {
         return f64::NAN;
     }
     let inside = random.within(of.lo.max(f64::MIN / 4.0), of.hi.min(f64::MAX / 4.0));
@@ -215,6 +215,28 @@ fn ranges_of_set_operations_are_those_of_their_corners() {
         [(truth(1.0, 2.0), i(5.0, 6.0)), (truth(0.0, 0.0), i(7.0, 8.0)), (truth(0.0, 1.0), i(5.0, 8.0))]
     {
         check("select", Ternary::Select.interval(condition, i(5.0, 6.0), i(7.0, 8.0)), want);
+    }
+}
+
+/// `mathematics.md` 1: R(-2, 1) = 2.76 > R(-1, 1) = 2 for m = 1; and dense samples reach the ends of the range.
+#[test]
+fn ranges_of_smooth_unions_are_reached() {
+    let mut random = Random(16);
+    let i = Interval::new;
+    let union = |f, g, m| Ternary::UnionSmooth.real(f, g, m);
+    assert!((union(-2.0, 1.0, 1.0) - 2.764).abs() < 1e-3 && (union(-1.0, 1.0, 1.0) - 2.0).abs() < 1e-12);
+    for _ in 0..300 {
+        let (a, b, m) = (random.within(-3.0, 3.0), random.within(-3.0, 3.0), random.one_of(&[1.0, 2.0, 3.0]));
+        let (over_a, over_b) = (i(a, a + 3.0 * random.unit()), i(b, b + 3.0 * random.unit()));
+        let range = Ternary::UnionSmooth.interval(over_a, over_b, Interval::point(m));
+        let at = |of: Interval, k: i32| (of.lo + (of.hi - of.lo) * f64::from(k) / 60.0).min(of.hi);
+        let values =
+            (0..=60).flat_map(|j| (0..=60).map(move |k| (j, k))).map(|(j, k)| union(at(over_a, j), at(over_b, k), m));
+        let reached = values.fold(Interval::EMPTY, |all, v| all.hull(Interval::point(v)));
+        let room = 2e-3 * (range.hi - range.lo);
+        let what = format!("{over_a:?}, {over_b:?}, m = {m}: {range:?} of which {reached:?} is reached");
+        assert!(range.lo <= reached.lo && reached.hi <= range.hi, "{what}");
+        assert!(range.lo >= reached.lo - room && range.hi <= reached.hi + room, "{what}");
     }
 }
 

@@ -1,0 +1,146 @@
+//! Searches along one ray: where samples change sign, where a maximum may lie between them, and the root in a bracket. Evaluates
+//! nothing itself: each search says where it wants a value and takes it, so that many advance together.
+
+/// Samples along a ray in a smallest box, both ends included.
+pub(super) const SAMPLES: usize = 7;
+
+/// The part of a ray in a smallest box.
+#[derive(Clone, Copy)]
+pub(super) struct Segment {
+    pub(super) ray: usize,
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+/// A stretch of a ray that begins outside and ends inside.
+#[derive(Clone, Copy)]
+pub(super) struct Bracket {
+    pub(super) ray: usize,
+    pub(super) outside: (f64, f64),
+    pub(super) inside: (f64, f64),
+    /// Which end moved last: 1 the inside one, -1 the outside one.
+    pub(super) moved: i8,
+}
+
+/// A stretch of a ray on which all samples are outside and the function may have a maximum inside.
+#[derive(Clone, Copy)]
+pub(super) struct Summit {
+    pub(super) ray: usize,
+    /// A place outside before the maximum, and its value.
+    pub(super) before: (f64, f64),
+    pub(super) lo: f64,
+    pub(super) hi: f64,
+    /// The inner places of the golden section and their values.
+    pub(super) left: (f64, f64),
+    pub(super) right: (f64, f64),
+}
+
+impl Segment {
+    pub(super) fn at(&self, step: usize) -> f64 {
+        match step {
+            0 => self.from,
+            s if s == SAMPLES - 1 => self.to,
+            s => self.from + (self.to - self.from) * (s as f64 / (SAMPLES - 1) as f64),
+        }
+    }
+
+    pub(super) fn bracket(&self, values: &[f64], outside: usize, inside: usize) -> Bracket {
+        let place = |step: usize| (self.at(step), values[step]);
+        Bracket { ray: self.ray, outside: place(outside), inside: place(inside), moved: 0 }
+    }
+
+    /// The stretch around the largest sample, if the slopes beside it let the function reach 0 there: where it is concave it stays
+    /// below the lines through neighbouring samples.
+    pub(super) fn summit(&self, values: &[f64]) -> Option<Summit> {
+        let top = (0..SAMPLES).filter(|&s| !values[s].is_nan()).max_by(|&a, &b| values[a].total_cmp(&values[b]))?;
+        let (first, last) = (top.saturating_sub(1), (top + 1).min(SAMPLES - 1));
+        // On a concave stretch between two samples the function stays below the line through the two samples before it and below the one
+        // through the two samples behind it.
+        let line = |near: usize, far: usize| 2.0 * values[near] - values[far];
+        let reach = match top {
+            0 => line(1, 2),
+            _ if last == top => line(first, first - 1),
+            _ => line(top, first).max(line(top, last)),
+        };
+        if reach < 0.0 {
+            return None;
+        }
+        let (lo, hi) = (self.at(first), self.at(last));
+        let mut summit = Summit {
+            ray: self.ray,
+            before: (lo, values[first]),
+            lo,
+            hi,
+            left: (hi - GOLDEN * (hi - lo), f64::NAN),
+            right: (lo + GOLDEN * (hi - lo), f64::NAN),
+        };
+        summit.before.1 = if summit.before.1.is_nan() { f64::NEG_INFINITY } else { summit.before.1 };
+        Some(summit)
+    }
+}
+
+/// The golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+impl Summit {
+    /// The inner place whose value is not known yet.
+    pub(super) fn fresh(&self) -> (f64, f64) {
+        if self.left.1.is_nan() { self.left } else { self.right }
+    }
+
+    /// Takes the values of the places that were asked for; an undefined one counts as far outside.
+    pub(super) fn learn(&mut self, values: &[f64]) {
+        let mut values = values.iter().map(|&v| if v.is_nan() { f64::NEG_INFINITY } else { v });
+        for place in [&mut self.left, &mut self.right] {
+            if place.1.is_nan() {
+                place.1 = values.next().unwrap_or(f64::NEG_INFINITY);
+            }
+        }
+    }
+
+    /// From outside to the first inner place that is inside.
+    pub(super) fn bracket(&self) -> Option<Bracket> {
+        let inside = [self.left, self.right].into_iter().find(|place| place.1 >= 0.0)?;
+        Some(Bracket { ray: self.ray, outside: self.before, inside, moved: 0 })
+    }
+
+    pub(super) fn narrow(&mut self) {
+        if self.left.1 >= self.right.1 {
+            self.hi = self.right.0;
+            self.right = self.left;
+            self.left = (self.hi - GOLDEN * (self.hi - self.lo), f64::NAN);
+        } else {
+            self.lo = self.left.0;
+            self.left = self.right;
+            self.right = (self.lo + GOLDEN * (self.hi - self.lo), f64::NAN);
+        }
+    }
+}
+
+impl Bracket {
+    pub(super) fn width(&self) -> f64 {
+        (self.inside.0 - self.outside.0).abs()
+    }
+
+    /// The next place: regula falsi, kept off the ends; every third one the middle.
+    pub(super) fn estimate(&self, step: usize) -> f64 {
+        let part = self.outside.1 / (self.outside.1 - self.inside.1);
+        let part = if step % 3 == 2 || !part.is_finite() { 0.5 } else { part.clamp(1e-4, 1.0 - 1e-4) };
+        self.outside.0 + part * (self.inside.0 - self.outside.0)
+    }
+
+    /// Illinois: the end that stays twice loses half its weight.
+    pub(super) fn learn(&mut self, depth: f64, value: f64) {
+        let now = if value >= 0.0 { 1 } else { -1 };
+        if now == self.moved {
+            let stays = if now > 0 { &mut self.outside } else { &mut self.inside };
+            stays.1 *= 0.5;
+        }
+        if now > 0 {
+            self.inside = (depth, value);
+        } else {
+            self.outside = (depth, value);
+        }
+        self.moved = now;
+    }
+}
