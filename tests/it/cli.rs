@@ -240,7 +240,7 @@ fn values_at_points() {
     );
     assert_eq!(sampled(&["-D", "r=SQRT(x1)"], "-1 0 0").out, "nan\n");
     let wrong = sampled(&[], "1 2\n");
-    assert_eq!(wrong.status, Some(4), "{}", wrong.err);
+    assert_eq!(wrong.status, Some(3), "{}", wrong.err);
     assert!(wrong.err.contains('2') && wrong.err.contains('3'), "two numbers for three coordinates: {}", wrong.err);
     assert_eq!(sampled(&["--points", "none.tsv"], "").status, Some(4));
     assert_eq!(sampled(&["-o", "values.txt"], "0 0 0").made, ["values.txt"]);

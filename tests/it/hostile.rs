@@ -158,7 +158,7 @@ fn places_that_cannot_be_written() {
 #[test]
 fn a_failed_write_leaves_the_old_file() {
     let folder = folder(&[("a.geo", BALL.as_bytes()), ("a.stl", b"precious")]);
-    for arguments in [["--object", "gob_none"], ["-D", "r=-x1**2-1"], ["--resolution", "100000000"]] {
+    for arguments in [["--object", "gob_none"], ["-D", "gob_ball=-1-x1**2"], ["--resolution", "100000000"]] {
         let ran = run(folder.path(), &[&["a.geo", "-o", "a.stl"], arguments.as_slice()].concat(), "");
         assert_ne!(ran.status, Some(0), "{arguments:?}");
         assert_eq!(std::fs::read(folder.path().join("a.stl")).expect("it stands"), b"precious", "{arguments:?}");

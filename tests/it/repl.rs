@@ -22,8 +22,8 @@ const PIPED: &[(&str, &str, &[&str], &[&str], i32)] = &[
     ("the last value", "3\n_ + 1\n", &["4"], &[], 0),
     ("an error sets the status and the rest runs", "1 +* 2\n5\n", &["5"], &["error"], 3),
     ("a failed input changes nothing", "a = 1;\na = 2; b = SIN(1, 2);\na\n", &["1"], &["SIN"], 3),
-    ("undo", "a = 1;\na = 2;\n:undo\na\n", &["1"], &[], 0),
-    ("redo", "a = 1;\na = 2;\n:undo\n:redo\na\n", &["2"], &[], 0),
+    ("undo", "a = 1;\na = 2;\n:undo\na\n", &["1"], &["took back: a = 2"], 0),
+    ("redo", "a = 1;\na = 2;\n:undo\n:redo\na\n", &["2"], &["again: a = 2"], 0),
     ("nothing to undo", ":undo\n", &[], &["nothing"], 2),
     ("help", ":help\n", &[":undo", ":render"], &[], 0),
     ("help of a command", ":help deps\n", &[":deps NAME"], &[], 0),
@@ -136,6 +136,7 @@ fn failed_inputs_stay_in_the_history() {
     second.send("\x1b[A").expect("arrow up");
     second.expect("1 +* 3").expect("the failed line is back");
     second.send(ControlCode::EndOfText).expect("typed");
+    second.expect("yont>").expect("an empty line");
     second.send(ControlCode::EndOfTransmission).expect("typed");
     second.expect(expectrl::Eof).expect("Ctrl-D leaves");
 }
