@@ -1,5 +1,7 @@
 //! Plots: what is found on a function, and that it is drawn where it belongs.
 
+use super::mesh::{Ex, shape_of};
+use yont::interrupt::Interrupt;
 use yont::picture::axes::{Axis, around, number, ticks};
 use yont::picture::contours::{Map, draw, levels};
 use yont::picture::graph::{Curve, Graph, follow, stack};
@@ -10,13 +12,14 @@ use yont::picture::palette::Palette;
 use yont::picture::plot::Window;
 use yont::picture::sheet::{Heading, SheetError, compose};
 use yont::picture::{contours, graph};
+use yont::vm::Demand;
 
 /// Where `YONT_LOOK` names a folder, the pictures of these tests are left there to be looked at.
 fn look(image: &Image, name: &str) {
     if let Ok(folder) = std::env::var("YONT_LOOK") {
         let mut bytes = Vec::new();
-        yont::export::apng::write(std::slice::from_ref(image), 1., &mut bytes).unwrap();
-        std::fs::write(format!("{folder}/{name}.png"), bytes).unwrap();
+        yont::export::apng::write(std::slice::from_ref(image), 1., &mut bytes).expect("memory is enough");
+        std::fs::write(format!("{folder}/{name}.png"), bytes).expect("the folder is there");
     }
 }
 
@@ -280,6 +283,30 @@ fn the_map_of_fig_3_has_a_bold_corner_at_the_origin() {
     let warm = filled.rgba.as_chunks::<4>().0.iter().filter(|p| p[0] > p[2].saturating_add(8)).count();
     let cold = filled.rgba.as_chunks::<4>().0.iter().filter(|p| p[2] > p[0].saturating_add(8)).count();
     assert!(warm > 20_000 && cold > 2 * warm, "{warm} {cold}");
+}
+
+#[test]
+fn compiled_shapes_give_what_closures_give_with_any_number_of_threads() {
+    let alpha_0 = |x: Ex, y: Ex| x.clone() + y.clone() - (x.squared() + y.squared()).sqrt();
+    let plane = shape_of(|x, y, _| alpha_0(x, y), 2, Demand::Value);
+    let area = window(-2., 2.);
+    let by_threads = |count: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+        pool.install(|| Field::of(&plane, area, 301, 301, &Interrupt::default())).unwrap()
+    };
+    let (one, cost) = by_threads(1);
+    assert_eq!(one, field(area, 301, corner));
+    assert_eq!((cost.points, cost.undefined), (301 * 301, 0));
+    assert!([2, 8].into_iter().all(|count| by_threads(count) == (one.clone(), cost.clone())));
+
+    let segment = shape_of(|x, _, _| alpha_0(x.clone() - 1., 3. - x), 1, Demand::Value);
+    let (compiled, cost) = graph::of(&segment, 0., 4., 400, &Interrupt::default()).unwrap();
+    assert_eq!(compiled, curve(0., 4., |x| corner(x - 1., 3. - x)));
+    assert!(cost.points > 400);
+
+    let stopped = Interrupt::default();
+    stopped.cancel();
+    assert!(graph::of(&segment, 0., 4., 400, &stopped).is_err() && Field::of(&plane, area, 9, 9, &stopped).is_err());
 }
 
 #[test]
