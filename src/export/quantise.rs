@@ -6,8 +6,8 @@ use rustc_hash::FxHashMap;
 
 use crate::picture::Image;
 
-/// Distinct colours that are looked at one by one; beyond, they are counted in cells of 4 x 4 x 4.
-const DISTINCT: usize = 1 << 17;
+/// Distinct colours that are looked at one by one; beyond, they are counted in cells of 8 x 8 x 8.
+const DISTINCT: usize = 1 << 16;
 
 /// Rounds of moving each colour to the mean of those that it stands for.
 const ROUNDS: usize = 4;
@@ -36,7 +36,7 @@ impl Histogram {
     }
 
     fn cell(&self, colour: [u8; 3]) -> [u8; 3] {
-        if self.coarse { colour.map(|c| c & 0xfc | c >> 6) } else { colour }
+        if self.coarse { colour.map(|c| c & 0xf8 | c >> 5) } else { colour }
     }
 
     /// At most `limit` colours that stand for all that were counted.

@@ -151,15 +151,21 @@ impl Rules<'_> {
         Some(self.graph.ternary(Ternary::Select, condition, a.unwrap_or(zero), b.unwrap_or(zero)))
     }
 
-    /// `1 + sign a^2`, under a root or not, as the inverse functions need it.
-    fn one_and_square(&mut self, a: NodeId, op: Binary) -> NodeId {
+    /// `1 + a^2`
+    fn one_and_square(&mut self, a: NodeId) -> NodeId {
         let one = self.graph.constant(1.0);
         let square = self.graph.unary(Unary::Powi(2), a);
-        self.graph.binary(op, one, square)
+        self.graph.binary(Binary::Add, one, square)
+    }
+
+    /// `1 - a` and `1 + a`
+    fn about_one(&mut self, a: NodeId) -> (NodeId, NodeId) {
+        let one = self.graph.constant(1.0);
+        (self.graph.binary(Binary::Sub, one, a), self.graph.binary(Binary::Add, one, a))
     }
 
     fn unary(&mut self, op: Unary, a: NodeId, value: NodeId, d: NodeId) -> Slope {
-        use Binary::{Add, Div, Mul, Sub};
+        use Binary::{Div, Mul};
         Some(match op {
             Unary::Floor | Unary::Ceil | Unary::Round | Unary::Sign | Unary::Not => return None,
             Unary::Neg => self.graph.unary(Unary::Neg, d),
@@ -170,7 +176,7 @@ impl Rules<'_> {
                 return self.select(condition, Some(d), Some(negative));
             }
             Unary::Powi(n) => {
-                let power = self.graph.unary(Unary::Powi(n - 1), a);
+                let power = self.graph.unary(Unary::Powi(n.saturating_sub(1)), a);
                 let factor = self.scaled(f64::from(n), power);
                 self.graph.binary(Mul, factor, d)
             }
@@ -196,12 +202,23 @@ impl Rules<'_> {
                 let product = self.graph.binary(Mul, sine, d);
                 self.graph.unary(Unary::Neg, product)
             }
-            Unary::Tan | Unary::Tanh => {
-                let factor = self.one_and_square(value, if op == Unary::Tan { Add } else { Sub });
+            Unary::Tan => {
+                let factor = self.one_and_square(value);
                 self.graph.binary(Mul, factor, d)
             }
-            Unary::Atan | Unary::Atanh => {
-                let divisor = self.one_and_square(a, if op == Unary::Atan { Add } else { Sub });
+            // 1 - tanh^2 would cancel far from 0.
+            Unary::Tanh => {
+                let cosh = self.graph.unary(Unary::Cosh, a);
+                let once = self.graph.binary(Div, d, cosh);
+                self.graph.binary(Div, once, cosh)
+            }
+            Unary::Atan => {
+                let divisor = self.one_and_square(a);
+                self.graph.binary(Div, d, divisor)
+            }
+            Unary::Atanh => {
+                let (below, above) = self.about_one(a);
+                let divisor = self.graph.binary(Mul, below, above);
                 self.graph.binary(Div, d, divisor)
             }
             Unary::Asin | Unary::Acos | Unary::Asinh | Unary::Acosh => self.inverse_by_root(op, a, d),
@@ -209,16 +226,23 @@ impl Rules<'_> {
     }
 
     fn inverse_by_root(&mut self, op: Unary, a: NodeId, d: NodeId) -> NodeId {
-        let inside = match op {
-            Unary::Asinh => self.one_and_square(a, Binary::Add),
-            Unary::Acosh => {
+        let root = match op {
+            Unary::Asinh => {
                 let one = self.graph.constant(1.0);
-                let square = self.graph.unary(Unary::Powi(2), a);
-                self.graph.binary(Binary::Sub, square, one)
+                self.graph.binary(Binary::Hypot, a, one)
             }
-            _ => self.one_and_square(a, Binary::Sub),
+            Unary::Acosh => {
+                let (below, above) = self.about_one(a);
+                let below = self.graph.unary(Unary::Neg, below);
+                let (below, above) = (self.graph.unary(Unary::Sqrt, below), self.graph.unary(Unary::Sqrt, above));
+                self.graph.binary(Binary::Mul, below, above)
+            }
+            _ => {
+                let (below, above) = self.about_one(a);
+                let product = self.graph.binary(Binary::Mul, below, above);
+                self.graph.unary(Unary::Sqrt, product)
+            }
         };
-        let root = self.graph.unary(Unary::Sqrt, inside);
         let quotient = self.graph.binary(Binary::Div, d, root);
         if op == Unary::Acos { self.graph.unary(Unary::Neg, quotient) } else { quotient }
     }

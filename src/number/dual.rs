@@ -8,6 +8,7 @@ use super::float;
 use super::functions;
 use super::op::{Binary, Ternary, Unary};
 use super::real::is_true;
+use super::rfunction;
 
 /// A value and its derivatives by N variables.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -212,8 +213,7 @@ pub fn union_slopes(a: f64, b: f64, alpha: f64, value: f64) -> (f64, f64, f64) {
     }
     let (down, _) = float::Float::scale(a.abs().max(b.abs()));
     let (f, g) = (a * down, b * down);
-    let (sum, difference) = (f + g, f - g);
-    let root = (0.5 * (1.0 - alpha) * (sum * sum) + 0.5 * (1.0 + alpha) * (difference * difference)).sqrt();
+    let root = rfunction::root(f, g, alpha);
     let over = |x: f64| if root == 0.0 { 0.0 } else { x / root };
     let plus = 1.0 + alpha;
     ((1.0 + over(f - alpha * g)) / plus, (1.0 + over(g - alpha * f)) / plus, -0.5 * over(value * down) * value)

@@ -4,10 +4,11 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::functions;
+use super::op::Unary;
 
 /// `f64` or `f32`. Everything here is branch-free where it matters, so that a loop over a block becomes vector code.
 ///
-/// The elementary functions of `f32` are those of `f64`, rounded: within 0.5001 units in the last place.
+/// The elementary functions of `f32` are computed in doubles and rounded: within 0.52 units in the last place.
 pub trait Float:
     Copy
     + PartialOrd
@@ -54,10 +55,8 @@ pub trait Float:
     /// For a magnitude: `(1/p, p)` with p the power of two at or below it, kept away from the ends of the range, so that
     /// a number of at most that magnitude times `1/p` squares without overflow.
     fn scale(self) -> (Self, Self);
-    /// A function of doubles, on this number.
-    fn through(self, f: impl Fn(f64) -> f64) -> Self;
-    /// A function of two doubles, on these numbers.
-    fn through2(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
+    /// An elementary function; angles up to [`functions::NEAR`].
+    fn elementary(self, op: Unary) -> Self;
 
     /// Whether it is undefined.
     #[inline(always)]
@@ -125,12 +124,8 @@ impl Float for f64 {
         (f64::from_bits((2046 << 52) - power), f64::from_bits(power))
     }
     #[inline(always)]
-    fn through(self, f: impl Fn(f64) -> f64) -> Self {
-        f(self)
-    }
-    #[inline(always)]
-    fn through2(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        f(self, other)
+    fn elementary(self, op: Unary) -> Self {
+        functions::near(op, self)
     }
     #[inline(always)]
     fn undefined(self) -> bool {
@@ -186,12 +181,8 @@ impl Float for f32 {
         (f32::from_bits((254 << 23) - power), f32::from_bits(power))
     }
     #[inline(always)]
-    fn through(self, f: impl Fn(f64) -> f64) -> Self {
-        Self::of(f(self.double()))
-    }
-    #[inline(always)]
-    fn through2(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self::of(f(self.double(), other.double()))
+    fn elementary(self, op: Unary) -> Self {
+        functions::near_single(op, self)
     }
     #[inline(always)]
     fn undefined(self) -> bool {
@@ -220,7 +211,8 @@ pub fn hypot<T: Float>(a: T, b: T) -> T {
     (x * x + y * y).root() * up
 }
 
-/// a to a whole power by repeated squaring, of 1/a for a negative one: within |n| units in the last place.
+/// a to a whole power by repeated squaring, of 1/a for a negative one: within n units in the last place, for a
+/// negative one twice as many.
 #[inline(always)]
 pub fn powi<T: Float>(a: T, n: i32) -> T {
     let mut square = if n < 0 { T::ONE / a } else { a };
@@ -245,8 +237,14 @@ pub fn modulo<T: Float>(a: T, b: T) -> T {
     a - b * (a / b).down()
 }
 
+/// Angle of the point (x = b, y = a).
+#[inline(always)]
+pub fn atan2<T: Float>(a: T, b: T) -> T {
+    T::of(functions::atan2(a.double(), b.double()))
+}
+
 /// a to the power b; undefined if one is.
 #[inline(always)]
 pub fn pow<T: Float>(a: T, b: T) -> T {
-    a.through2(b, functions::pow)
+    T::of(functions::pow(a.double(), b.double()))
 }

@@ -12,6 +12,45 @@ impl Unary {
     /// The operation on a machine number.
     #[inline(always)]
     pub fn of<T: Float>(self, a: T) -> T {
+        if self.is_rare(a) { self.rare(a) } else { self.common(a) }
+    }
+
+    /// Whether [`Unary::common`] is not for this number: huge angles, which would break up a loop's vector code.
+    #[inline(always)]
+    pub fn is_rare<T: Float>(self, a: T) -> bool {
+        matches!(self, Self::Sin | Self::Cos | Self::Tan) && a.magnitude() > T::of(functions::NEAR)
+    }
+
+    /// The operation where it is rare: through the slow exact reduction.
+    #[cold]
+    fn rare<T: Float>(self, a: T) -> T {
+        match self {
+            Self::Sin => T::of(functions::sin(a.double())),
+            Self::Cos => T::of(functions::cos(a.double())),
+            Self::Tan => T::of(functions::tan(a.double())),
+            other => other.common(a),
+        }
+    }
+
+    /// The operation on every number of a block, the same bits as [`Unary::of`]; with a constant `self` it is vector code.
+    /// What the longer slice has beyond the shorter stays.
+    #[inline(always)]
+    pub fn map<T: Float>(self, a: &[T], out: &mut [T]) {
+        let mut rare = false;
+        for (&a, out) in a.iter().zip(&mut *out) {
+            *out = self.common(a);
+            rare |= self.is_rare(a);
+        }
+        if rare {
+            for (&a, out) in a.iter().zip(out) {
+                *out = self.of(a);
+            }
+        }
+    }
+
+    /// The operation without branches, for numbers that are not rare.
+    #[inline(always)]
+    pub fn common<T: Float>(self, a: T) -> T {
         match self {
             Self::Neg => -a,
             Self::Abs => a.magnitude(),
@@ -23,22 +62,7 @@ impl Unary {
             Self::Sign => T::ONE.when(a > T::ZERO, (-T::ONE).when(a < T::ZERO, a * T::ZERO)),
             Self::Not => T::truth(!is_true(a)),
             Self::Powi(n) => float::powi(a, n),
-            Self::Cbrt => a.through(functions::cbrt),
-            Self::Exp => a.through(functions::exp),
-            Self::Log => a.through(functions::log),
-            Self::Log10 => a.through(functions::log10),
-            Self::Sin => a.through(functions::sin),
-            Self::Cos => a.through(functions::cos),
-            Self::Tan => a.through(functions::tan),
-            Self::Asin => a.through(functions::asin),
-            Self::Acos => a.through(functions::acos),
-            Self::Atan => a.through(functions::atan),
-            Self::Sinh => a.through(functions::sinh),
-            Self::Cosh => a.through(functions::cosh),
-            Self::Tanh => a.through(functions::tanh),
-            Self::Asinh => a.through(functions::asinh),
-            Self::Acosh => a.through(functions::acosh),
-            Self::Atanh => a.through(functions::atanh),
+            elementary => a.elementary(elementary),
         }
     }
 
@@ -69,7 +93,7 @@ impl Binary {
             Self::Min => float::min(a, b),
             Self::Max => float::max(a, b),
             Self::Pow => float::pow(a, b),
-            Self::Atan2 => a.through2(b, functions::atan2),
+            Self::Atan2 => float::atan2(a, b),
             Self::Hypot => float::hypot(a, b),
             Self::Mod => float::modulo(a, b),
             Self::Less => T::truth(a < b),

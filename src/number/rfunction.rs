@@ -15,10 +15,8 @@ pub fn union<T: Float>(a: T, b: T, alpha: T) -> T {
     let size = x.when(first, y);
     let (down, up) = size.scale();
     let (f, g) = (a * down, b * down);
-    let (sum, difference) = (f + g, f - g);
-    let below = (T::ONE - alpha) * T::HALF;
-    let above = (T::ONE + alpha) * T::HALF;
-    let root = (below * (sum * sum) + above * (difference * difference)).root();
+    let root = root(f, g, alpha);
+    let sum = f + g;
     // For a negative sum the other root of the same quadratic equation: the operand of larger magnitude is scaled, the
     // smaller one not, since it could underflow.
     let positive = sum >= T::ZERO;
@@ -29,6 +27,18 @@ pub fn union<T: Float>(a: T, b: T, alpha: T) -> T {
     let simple = (alpha == T::ONE) | (size == T::INFINITY) | a.undefined() | b.undefined();
     let value = largest.when(simple, value);
     value.when((alpha > -T::ONE) & (alpha <= T::ONE), T::NAN)
+}
+
+/// sqrt(f^2 + g^2 - 2 alpha f g) as a sum of terms that are not negative, so that nothing cancels; f and g scaled.
+#[inline(always)]
+pub fn root<T: Float>(f: T, g: T, alpha: T) -> T {
+    let product = f * g;
+    let size = alpha.magnitude();
+    let added = alpha * product <= T::ZERO;
+    let side = f - g.when(alpha > T::ZERO, -g);
+    let squares = (f * f + g * g).when(added, side * side);
+    let twice = T::TWO * size.when(added, T::ONE - size);
+    (squares + twice * product.magnitude()).root()
 }
 
 /// `a & b`: -((-a) | (-b)), undefined if an operand is.

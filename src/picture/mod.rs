@@ -1,14 +1,16 @@
 //! Pictures of functions: cameras, ray casting, plots, palettes, animations. Knows no language and no files.
 //!
 //! [`raycast`] shows a 3-D object in the light, [`plot`] a 2-D object as a filled picture, [`animation`] frames over a parameter.
-//! Each takes a compiled [`crate::vm::Shape`] and gives an [`Image`]; the same input gives the same bytes for any number of threads.
+//! [`field`] samples one for a volume file. Each takes a compiled [`crate::vm::Shape`] and gives an [`Image`]; the same input gives the same bytes for any number of threads.
 
 pub mod animation;
 pub mod axes;
+pub mod axes_space;
 pub mod camera;
 pub mod canvas;
 pub mod contours;
 pub mod extent;
+pub mod field;
 pub mod graph;
 pub mod image;
 pub mod isolines;

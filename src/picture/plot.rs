@@ -75,6 +75,9 @@ pub fn plot(
     interrupt: &Interrupt,
 ) -> Result<Plot, Cancelled> {
     assert_eq!(shape.dimension, 2, "a plot shows a space of two axes");
+    if size.contains(&0) {
+        return Ok(Plot { image: Image::new(size[0], size[1], [0; 3]), counters: Counters::default(), met: false });
+    }
     match fill {
         Fill::Mono => {
             let (signs, counters) = signs(shape, &Pixels { window, size }, interrupt)?;

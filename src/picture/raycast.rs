@@ -70,6 +70,9 @@ pub fn raycast(
 ) -> Result<Picture, Cancelled> {
     assert_eq!(shape.dimension, 3, "rays are cast in a space of three axes");
     let [width, height] = style.size;
+    if width == 0 || height == 0 {
+        return Ok(Picture { image: Image::new(width, height, [0; 3]), counters: Counters::default(), hits: 0 });
+    }
     let fine = style.supersample.clamp(1, 4);
     // Tiles are whole pixels.
     let tile = if fine == 3 { 6 } else { 8 };

@@ -54,8 +54,15 @@ impl Segment {
     pub(super) fn summit(&self, values: &[f64]) -> Option<Summit> {
         let top = (0..SAMPLES).filter(|&s| !values[s].is_nan()).max_by(|&a, &b| values[a].total_cmp(&values[b]))?;
         let (first, last) = (top.saturating_sub(1), (top + 1).min(SAMPLES - 1));
-        let drop = (values[top] - values[first]).max(values[top] - values[last]);
-        if values[top] + drop < 0.0 {
+        // On a concave stretch between two samples the function stays below the line through the two samples before it and below the one
+        // through the two samples behind it.
+        let line = |near: usize, far: usize| 2.0 * values[near] - values[far];
+        let reach = match top {
+            0 => line(1, 2),
+            _ if last == top => line(first, first - 1),
+            _ => line(top, first).max(line(top, last)),
+        };
+        if reach < 0.0 {
             return None;
         }
         let (lo, hi) = (self.at(first), self.at(last));

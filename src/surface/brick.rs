@@ -4,12 +4,16 @@
 //! A brick owns its points, the edges that start at them and the cells whose lowest corner they are. It evaluates the next plane of points on
 //! each axis too, so that it can find its own vertices; who joins them asks the owner for every sign.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::boxes::{Block, Visitor, Walk, walk};
-use super::grid::{Grid, LEAF};
+use super::grid::{BYTES_PER_VERTEX, Grid, LEAF};
+use super::marching::SurfaceError;
 use super::mesh::unit;
 use super::roots::{Crossing, Roots};
 use super::sampler::{Counters, Sampler};
-use crate::interrupt::{Cancelled, Interrupt};
+use crate::interrupt::Interrupt;
+use crate::limits::Limits;
 use crate::vm::{Program, Shape};
 
 /// Points along each side that a brick evaluates.
@@ -86,6 +90,8 @@ const INSIDE: u32 = u32::MAX - 1;
 pub struct Bricks {
     /// The grid.
     pub grid: Grid,
+    /// Vertices that the mesh may have, caps included.
+    pub most_vertices: usize,
     /// The undecided leaves, in a fixed order.
     pub bricks: Vec<Brick>,
     /// The vertices on crossed edges, in the order of their bricks.
@@ -101,16 +107,24 @@ impl Bricks {
     /// Evaluates the shape on the grid: intervals where they decide, points elsewhere. The shape's space must be that of the grid.
     ///
     /// # Errors
-    /// [`Cancelled`] soon after the interrupt was set; None where there are more than 2^32 - 2 vertices.
-    pub fn survey(shape: &Shape, grid: &Grid, interrupt: &Interrupt) -> Result<Option<Self>, Cancelled> {
-        let Walk { visitors, counters } = walk(grid, shape, |_| Gathering::new(grid), interrupt)?;
+    /// [`SurfaceError::Cancelled`] soon after the interrupt was set; [`SurfaceError::Memory`] as soon as there are more vertices than
+    /// `Limits::memory_bytes` hold.
+    pub fn survey(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Self, SurfaceError> {
         let leaves = grid.leaves();
+        let most_vertices = (limits.memory_bytes / BYTES_PER_VERTEX).min(INSIDE as usize - 1);
+        if grid.estimated_bytes() > limits.memory_bytes as u64 {
+            return Err(SurfaceError::Memory(limits.memory_bytes));
+        }
+        let found = AtomicUsize::new(0);
+        let gathering = |_: &Block| Gathering::new(grid, &found, most_vertices);
+        let Walk { visitors, counters } = walk(grid, shape, gathering, interrupt)?;
         let vertices = visitors.iter().map(|part| part.positions.len()).sum::<usize>();
-        if vertices >= INSIDE as usize {
-            return Ok(None);
+        if vertices > most_vertices {
+            return Err(SurfaceError::Memory(limits.memory_bytes));
         }
         let mut all = Self {
             grid: *grid,
+            most_vertices,
             bricks: Vec::with_capacity(visitors.iter().map(|part| part.bricks.len()).sum()),
             positions: Vec::with_capacity(vertices),
             normals: Vec::with_capacity(vertices),
@@ -131,7 +145,7 @@ impl Bricks {
             all.positions.extend_from_slice(&part.positions);
             all.normals.extend_from_slice(&part.normals);
         }
-        Ok(Some(all))
+        Ok(all)
     }
 
     /// The leaf at that place; outside beyond the grid.
@@ -190,6 +204,8 @@ impl Bricks {
 /// What one task gathers.
 struct Gathering<'a> {
     grid: &'a Grid,
+    found: &'a AtomicUsize,
+    most: usize,
     inside: Vec<Block>,
     bricks: Vec<Brick>,
     positions: Vec<[f64; 3]>,
@@ -207,10 +223,9 @@ struct Scratch {
 }
 
 impl<'a> Gathering<'a> {
-    fn new(grid: &'a Grid) -> Self {
-        let nothing = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (inside, bricks, positions, normals) = nothing;
-        Self { grid, inside, bricks, positions, normals, scratch: Scratch::default() }
+    fn new(grid: &'a Grid, found: &'a AtomicUsize, most: usize) -> Self {
+        let (inside, bricks, positions, normals) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { grid, found, most, inside, bricks, positions, normals, scratch: Scratch::default() }
     }
 
     /// Evaluates the block and the next plane on each axis; x fastest. Returns the points along each side.
@@ -258,6 +273,11 @@ impl<'a> Gathering<'a> {
 }
 
 impl Visitor for Gathering<'_> {
+    /// Nothing more once all tasks together have found too many vertices.
+    fn wants(&mut self, _block: &Block) -> bool {
+        self.found.load(Ordering::Relaxed) <= self.most
+    }
+
     fn uniform(&mut self, block: &Block, inside: bool) {
         if inside {
             self.inside.push(*block);
@@ -276,6 +296,7 @@ impl Visitor for Gathering<'_> {
         let (before, count) = Brick::count(&crossed);
         let first = self.positions.len() as u32;
         self.bricks.push(Brick { at, inside: signs.owned(), crossed, before, first });
+        self.found.fetch_add(usize::from(count), Ordering::Relaxed);
         self.scratch.crossings.clear();
         self.scratch.crossings.reserve(usize::from(count));
         for (axis, words) in crossed.iter().enumerate() {

@@ -35,18 +35,17 @@ pub struct Face {
     pub points: Vec<u32>,
 }
 
-/// Fills the six faces.
+/// Fills the six faces; None where the vertices become more than [`Bricks::most_vertices`].
 ///
 /// # Errors
 /// If the work was asked to stop, or a vertex is missing that the signs ask for.
-pub fn close(bricks: &Bricks, interrupt: &Interrupt) -> Result<Caps, SurfaceError> {
+pub fn close(bricks: &Bricks, interrupt: &Interrupt) -> Result<Option<Caps>, SurfaceError> {
     let mut closing = Closing { bricks, numbers: FxHashMap::default(), caps: Caps::default() };
     for (axis, side) in (0..6).map(|face| (face / 2, face % 2)) {
-        interrupt.tick()?;
-        let face = closing.face(axis, side)?;
+        let Some(face) = closing.face(axis, side, interrupt)? else { return Ok(None) };
         closing.caps.faces.push(face);
     }
-    Ok(closing.caps)
+    Ok(Some(closing.caps))
 }
 
 struct Closing<'a> {
@@ -57,12 +56,16 @@ struct Closing<'a> {
 
 impl Closing<'_> {
     /// Leaf by leaf, since most of a face is outside as a whole.
-    fn face(&mut self, axis: usize, side: usize) -> Result<Face, SurfaceError> {
+    fn face(&mut self, axis: usize, side: usize, interrupt: &Interrupt) -> Result<Option<Face>, SurfaceError> {
         let grid = self.bricks.grid;
         let plane = Plane::new(&grid, axis, side);
         let mut face = Face { axis, side, triangles: Vec::new(), points: Vec::new() };
         let leaves = grid.leaves();
         for v in 0..leaves[plane.v] {
+            interrupt.tick()?;
+            if self.bricks.positions.len() + self.caps.positions.len() > self.bricks.most_vertices {
+                return Ok(None);
+            }
             for u in 0..leaves[plane.u] {
                 let mut at = [0; 3];
                 (at[axis], at[plane.u], at[plane.v]) = (plane.index / LEAF, u, v);
@@ -77,7 +80,7 @@ impl Closing<'_> {
             }
         }
         self.list_points(&mut face);
-        Ok(face)
+        Ok(Some(face))
     }
 
     /// Fills one square: a fan for every run of inside corners between the vertices on the sides where the ring enters and leaves it.

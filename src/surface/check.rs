@@ -164,7 +164,7 @@ impl Corners {
                 return (turn < outgoing.len()).then_some(Fault::Fans(from));
             }
         }
-        (!outgoing.is_empty()).then(|| Fault::Repeated(from, from))
+        (!outgoing.is_empty()).then_some(Fault::Repeated(from, from))
     }
 }
 

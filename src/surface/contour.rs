@@ -9,6 +9,7 @@ use super::grid::{Grid, LEAF};
 use super::marching::SurfaceError;
 use super::sampler::Counters;
 use crate::interrupt::Interrupt;
+use crate::limits::Limits;
 use crate::vm::Shape;
 
 /// The outlines of a 2-D shape.
@@ -59,11 +60,11 @@ fn signed_area(line: &[[f64; 2]]) -> f64 {
 ///
 /// # Errors
 /// See [`SurfaceError`].
-pub fn outlines(shape: &Shape, grid: &Grid, interrupt: &Interrupt) -> Result<Contour, SurfaceError> {
+pub fn outlines(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Contour, SurfaceError> {
     if shape.dimension != 2 || grid.dimension() != 2 {
         return Err(SurfaceError::Dimension(shape.dimension, 2));
     }
-    let mut bricks = Bricks::survey(shape, grid, interrupt)?.ok_or(SurfaceError::TooManyVertices)?;
+    let mut bricks = Bricks::survey(shape, grid, limits, interrupt)?;
     let counters = std::mem::take(&mut bricks.counters);
     let mut tracing = Tracing::new(&bricks);
     tracing.all_squares(interrupt)?;

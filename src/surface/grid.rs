@@ -12,6 +12,9 @@ pub const LEAF: usize = 8;
 /// Most cells along one side: vertices and leaves are numbered in 32 bits.
 pub const MOST_CELLS: usize = 1 << 14;
 
+/// Bytes that a mesh takes per vertex while it is made and checked: about twice what it takes when it is done.
+pub const BYTES_PER_VERTEX: usize = 256;
+
 /// An axis-aligned box of a 3-D or 2-D space, cut into equal cells along each axis.
 ///
 /// The sample points are the corners of the cells: `cells + 1` along each axis, the first and the last exactly on the faces of the box. A
@@ -33,6 +36,8 @@ pub enum GridError {
     Dimension(usize),
     /// The bounds of the coordinate with this index (from 0) are not finite or hold no length.
     Bounds(usize),
+    /// The cells along the coordinate with this index are too small for doubles of its size.
+    TooFine(usize),
     /// No cells, or more than [`MOST_CELLS`] along a side.
     Resolution(usize),
 }
@@ -42,6 +47,7 @@ impl fmt::Display for GridError {
         match self {
             Self::Dimension(n) => write!(f, "a boundary is found in 2 or 3 coordinates, not in {n}"),
             Self::Bounds(axis) => write!(f, "the modelling space has no extent along x{}", axis + 1),
+            Self::TooFine(axis) => write!(f, "the cells along x{} are too small to be told apart", axis + 1),
             Self::Resolution(n) => write!(f, "{n} cells along a side: between 1 and {MOST_CELLS} are possible"),
         }
     }
@@ -74,6 +80,10 @@ impl Grid {
             // A side that is a whole number of cells but for rounding must not get one more.
             let cells = ((hi - lo) / longest * resolution as f64 - 1e-9).ceil();
             grid.cells[axis] = (cells as usize).clamp(1, resolution);
+            let unit = f64::EPSILON * lo.abs().max(hi.abs()) + f64::MIN_POSITIVE;
+            if grid.cell()[axis] < 1024.0 * unit {
+                return Err(GridError::TooFine(axis));
+            }
         }
         Ok(grid)
     }
@@ -118,14 +128,15 @@ impl Grid {
         self.counts().map(|n| n.div_ceil(LEAF))
     }
 
-    /// A low estimate of the bytes that a mesh of an ordinary solid on this grid takes: what grows with the surface and what with the
-    /// number of leaves. To be held against `Limits::memory_bytes`.
+    /// An estimate of the bytes that it takes to mesh an ordinary solid on this grid: as large as the space, without fine structure. What
+    /// is larger is found out while it is made.
     #[must_use]
     pub fn estimated_bytes(&self) -> u64 {
-        let [x, y, z] = self.counts().map(|n| n as u64);
+        let [x, y, z] = self.cells.map(|n| n as u64);
         let leaves: u64 = self.leaves().iter().map(|&n| n as u64).product();
-        let surface = 2 * (x * y + y * z + z * x);
-        leaves * 4 + surface * 160
+        // A ball that fills a cube has about 3 vertices per sample point of a face, a disc in a square 3 per point of a side.
+        let vertices = if z == 0 { 2 * (x + y) } else { x * y + y * z + z * x };
+        leaves * 4 + vertices * BYTES_PER_VERTEX as u64
     }
 }
 

@@ -16,6 +16,7 @@ use super::mesh::{Mesh, cross, minus, unit};
 use super::sampler::{Counters, Sampler};
 use super::table::{CASES, Edge, edge_start};
 use crate::interrupt::{Cancelled, Interrupt};
+use crate::limits::Limits;
 use crate::vm::Shape;
 
 /// A mesh and what there is to say about it.
@@ -46,8 +47,8 @@ pub enum SurfaceError {
     Cancelled,
     /// The shape has another number of coordinates than the grid (shape, grid).
     Dimension(usize, usize),
-    /// More vertices than 32 bits can number.
-    TooManyVertices,
+    /// The mesh would take more than this many bytes, `Limits::memory_bytes`.
+    Memory(usize),
     /// Near this place the signs of neighbouring boxes contradict each other: an error of the evaluator, never of the user.
     Contradiction([f64; 3]),
 }
@@ -59,7 +60,7 @@ impl fmt::Display for SurfaceError {
             Self::Dimension(shape, grid) => {
                 write!(f, "the object has {shape} free coordinates where {grid} are needed")
             }
-            Self::TooManyVertices => write!(f, "the mesh has more than four thousand million vertices"),
+            Self::Memory(limit) => write!(f, "the mesh would take more than {} MiB of memory", limit >> 20),
             Self::Contradiction([x, y, z]) => write!(f, "the signs near ({x}, {y}, {z}) contradict each other"),
         }
     }
@@ -77,15 +78,15 @@ impl From<Cancelled> for SurfaceError {
 ///
 /// # Errors
 /// See [`SurfaceError`].
-pub fn extract(shape: &Shape, grid: &Grid, interrupt: &Interrupt) -> Result<Extraction, SurfaceError> {
+pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Extraction, SurfaceError> {
     if shape.dimension != 3 || grid.dimension() != 3 {
         return Err(SurfaceError::Dimension(shape.dimension, 3));
     }
-    let mut bricks = Bricks::survey(shape, grid, interrupt)?.ok_or(SurfaceError::TooManyVertices)?;
+    let mut bricks = Bricks::survey(shape, grid, limits, interrupt)?;
     let samples = grid.counts().iter().map(|&n| n as u64).product();
     let mut report = Report { counters: std::mem::take(&mut bricks.counters), samples, cut: [[false; 2]; 3] };
     let mut triangles = join(&bricks, interrupt)?;
-    let caps = cap::close(&bricks, interrupt)?;
+    let caps = cap::close(&bricks, interrupt)?.ok_or(SurfaceError::Memory(limits.memory_bytes))?;
     let uncapped = bricks.positions.len();
     let mut mesh = Mesh {
         positions: std::mem::take(&mut bricks.positions),
@@ -99,9 +100,6 @@ pub fn extract(shape: &Shape, grid: &Grid, interrupt: &Interrupt) -> Result<Extr
     mesh.positions.extend_from_slice(&caps.positions);
     mesh.normals.extend_from_slice(&caps.normals);
     mesh.triangles = triangles;
-    if mesh.positions.len() > u32::MAX as usize {
-        return Err(SurfaceError::TooManyVertices);
-    }
     mend_normals(&mut mesh, uncapped);
     Ok(Extraction { mesh, report })
 }

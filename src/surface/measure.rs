@@ -9,6 +9,7 @@ use super::grid::Grid;
 use super::marching::{Report, SurfaceError, extract};
 use super::mesh::{Mesh, cross, dot, minus};
 use crate::interrupt::Interrupt;
+use crate::limits::Limits;
 use crate::vm::Shape;
 
 /// A measured number and an estimate of its distance from the solid's own.
@@ -76,15 +77,17 @@ impl From<Fault> for MeasureError {
 ///
 /// # Errors
 /// See [`MeasureError`].
-pub fn measure(shape: &Shape, grid: &Grid, interrupt: &Interrupt) -> Result<Measures, MeasureError> {
-    let coarse = extract(shape, &grid.halved(), interrupt)?;
-    let fine = extract(shape, grid, interrupt)?;
+pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Measures, MeasureError> {
+    let coarse = extract(shape, &grid.halved(), limits, interrupt)?;
+    let fine = extract(shape, grid, limits, interrupt)?;
     let topology = check(&fine.mesh)?;
     let [rough, good] = [&coarse.mesh, &fine.mesh].map(Integrals::of);
     let mut report = fine.report;
     report.counters.add(coarse.report.counters);
+    // One cell cannot be halved; nothing is known about the error then.
+    let is_compared = grid.halved() != *grid;
     let estimate = |of: &dyn Fn(&Integrals) -> f64| {
-        let (value, other) = (of(&good), of(&rough));
+        let (value, other) = (of(&good), if is_compared { of(&rough) } else { 0.0 });
         Estimate { value, error: (value - other).abs() }
     };
     Ok(Measures {

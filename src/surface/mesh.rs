@@ -58,8 +58,8 @@ pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// The vector divided by its length, if it has one that is finite and not 0. Very long and very short ones too.
 #[must_use]
 pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    let largest = a.iter().fold(0.0_f64, |m, c| if c.is_nan() { f64::NAN } else { m.max(c.abs()) });
-    if !(largest > 0.0 && largest.is_finite()) {
+    let largest = a.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    if largest == 0.0 || a.iter().any(|c| !c.is_finite()) {
         return None;
     }
     let scaled = a.map(|c| c / largest);

@@ -100,8 +100,9 @@ impl Crossing {
     /// The point at `t`, kept off both ends.
     fn vertex(&self, t: f64) -> [f64; 3] {
         let (lo, hi) = (self.start[self.axis], self.end);
-        let unit = lo.abs().max(hi.abs()) * f64::from(f32::EPSILON);
-        let margin = (MARGIN_UNITS * unit / (hi - lo)).clamp(MARGIN, 0.25);
+        let smallest = f64::from(f32::from_bits(1));
+        let unit = (lo.abs().max(hi.abs()) * f64::from(f32::EPSILON)).max(smallest);
+        let margin = (MARGIN_UNITS * unit / (hi - lo)).max(MARGIN).min(0.25);
         self.point(t.clamp(margin, 1.0 - margin))
     }
 }

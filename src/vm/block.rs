@@ -1,7 +1,7 @@
 //! Values at many points, in double or single precision. Double precision decides what a user sees; single precision may filter.
 //! Allocates nothing per block once it has seen its largest program.
 
-use super::kernels::{Kind, Store, run};
+use super::kernels::{Kind, Store, doubles, singles};
 use super::program::Program;
 use crate::number::float::Float;
 use crate::number::{Binary, Leaf, Ternary, Unary};
@@ -61,6 +61,10 @@ impl Kind for Doubles {
     type Watch = ();
     const LANES: usize = 128;
 
+    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
+        doubles(program, store, lanes, watch);
+    }
+
     #[inline(always)]
     fn get(block: &Self::Block, lane: usize) -> f64 {
         block.0[lane]
@@ -95,6 +99,10 @@ impl Kind for Singles {
     type Block = Lanes<f32, 256>;
     type Watch = ();
     const LANES: usize = 256;
+
+    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
+        singles(program, store, lanes, watch);
+    }
 
     #[inline(always)]
     fn get(block: &Self::Block, lane: usize) -> f32 {
@@ -160,7 +168,7 @@ impl<T: Scalar> Points<T> {
                 self.store.input(input).as_mut()[..out.len()].copy_from_slice(values);
             }
             // Whole vectors are computed; what the lanes beyond the last point hold is never read.
-            run::<T::Of>(program, &mut self.store, out.len().next_multiple_of(16), &mut ());
+            T::Of::run(program, &mut self.store, out.len().next_multiple_of(16), &mut ());
             out.copy_from_slice(&self.store.result(program).as_ref()[..out.len()]);
         }
     }

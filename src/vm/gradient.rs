@@ -1,7 +1,7 @@
 //! Values with their exact derivatives by up to three inputs at a time, forward, a block of points at a time. The values are those of
 //! [`super::Points`] to the bit.
 
-use super::kernels::{Kind, Store, run};
+use super::kernels::{Kind, Store, duals};
 use super::program::Program;
 use crate::number::dual::Dual;
 use crate::number::{Binary, Leaf, Ternary, Unary};
@@ -24,13 +24,18 @@ impl Default for DualBlock {
     }
 }
 
-struct Duals;
+/// The kind of number with three slopes.
+pub(crate) struct Duals;
 
 impl Kind for Duals {
     type Item = Dual<DIRECTIONS>;
     type Block = DualBlock;
     type Watch = ();
     const LANES: usize = LANES;
+
+    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
+        duals(program, store, lanes, watch);
+    }
 
     #[inline(always)]
     fn get(block: &DualBlock, lane: usize) -> Self::Item {
@@ -123,6 +128,6 @@ impl Gradients {
                 slope.fill(if by.get(direction) == Some(&input) { 1.0 } else { 0.0 });
             }
         }
-        run::<Duals>(program, &mut self.store, range.len().next_multiple_of(8), &mut ());
+        Duals::run(program, &mut self.store, range.len().next_multiple_of(8), &mut ());
     }
 }

@@ -1,7 +1,7 @@
 //! Ranges over boxes, up to 64 boxes at a time, and which operands can never matter in each: what `specialise` shortens by.
 
 use super::compile::extreme_of;
-use super::kernels::{Kind, Operands, Store, run};
+use super::kernels::{Kind, Operands, Store, ranges};
 use super::program::{Op, Program, Side};
 use super::specialise::Scratch;
 use crate::number::{Binary, Interval, Leaf, Ternary, Unary};
@@ -39,13 +39,18 @@ pub(crate) struct Choices {
     lanes: usize,
 }
 
-struct Ranges;
+/// The kind of number with bounds.
+pub(crate) struct Ranges;
 
 impl Kind for Ranges {
     type Item = Interval;
     type Block = IntervalBlock;
     type Watch = Choices;
     const LANES: usize = LANES;
+
+    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut Choices) {
+        ranges(program, store, lanes, watch);
+    }
 
     #[inline(always)]
     fn get(block: &IntervalBlock, lane: usize) -> Interval {
@@ -278,7 +283,7 @@ impl Boxes {
             let block = self.store.input(input);
             intervals.iter().enumerate().for_each(|(lane, interval)| Ranges::set(block, lane, *interval));
         }
-        run::<Ranges>(program, &mut self.store, out.len(), &mut self.choices);
+        Ranges::run(program, &mut self.store, out.len(), &mut self.choices);
         let result = self.store.result(program);
         out.iter_mut().enumerate().for_each(|(lane, interval)| *interval = Ranges::get(result, lane));
     }

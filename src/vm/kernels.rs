@@ -29,6 +29,9 @@ pub(crate) trait Kind {
     fn ternary(op: Ternary, a: Self::Item, b: Self::Item, c: Self::Item) -> Self::Item;
     fn leaf(leaf: &dyn Leaf, arguments: &[Self::Item]) -> Self::Item;
 
+    /// Runs a program on the first `lanes` lanes of the input blocks, with the best instructions that there are.
+    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut Self::Watch);
+
     /// Called with each operation before its result takes its slot.
     #[inline(always)]
     fn watch(_: &mut Self::Watch, _at: usize, _op: &Op, _operands: &Operands<'_, Self>, _result: &Self::Block) {}
@@ -76,10 +79,9 @@ impl<'a, K: Kind + ?Sized> Operands<'a, K> {
     }
 }
 
-/// Runs the program on the first `lanes` lanes of the input blocks.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
-pub(crate) fn run<K: Kind>(program: &Program, store: &mut Store<K>, lanes: usize, watch: &mut K::Watch) {
-    let lanes = lanes.min(K::LANES);
+/// Runs the program on the first `lanes` lanes of the input blocks. Inlined into one function per kind and instruction set.
+#[inline(always)]
+fn run<K: Kind>(program: &Program, store: &mut Store<K>, lanes: usize, watch: &mut K::Watch) {
     let results = &program.slots[program.inputs.len()..];
     for (at, (op, slot)) in program.operations.iter().zip(results).enumerate() {
         let operands = Operands { blocks: &store.slots, slots: &program.slots };
@@ -89,12 +91,42 @@ pub(crate) fn run<K: Kind>(program: &Program, store: &mut Store<K>, lanes: usize
     }
 }
 
+/// A loop over the lanes. A macro, not a function of a closure: the compiler must see the operation as a constant within the loop, or
+/// it calls it lane by lane.
+macro_rules! each {
+    ($out:ident, $lanes:ident, $i:ident => $value:expr) => {
+        for $i in 0..$lanes.min(K::LANES) {
+            K::set($out, $i, $value);
+        }
+    };
+}
+
+/// The function that runs programs with one kind of number, for each instruction set.
+macro_rules! runner {
+    ($name:ident, $kind:ty) => {
+        #[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+        pub(crate) fn $name(
+            program: &Program,
+            store: &mut Store<$kind>,
+            lanes: usize,
+            watch: &mut <$kind as Kind>::Watch,
+        ) {
+            run::<$kind>(program, store, lanes, watch);
+        }
+    };
+}
+
+runner!(doubles, super::block::Doubles);
+runner!(singles, super::block::Singles);
+runner!(duals, super::gradient::Duals);
+runner!(ranges, super::interval::Ranges);
+
 #[inline(always)]
 fn step<K: Kind>(program: &Program, op: &Op, operands: &Operands<'_, K>, out: &mut K::Block, lanes: usize) {
     match *op {
         Op::Constant(value) => {
             let value = K::constant(value);
-            (0..lanes).for_each(|i| K::set(out, i, value));
+            each!(out, lanes, i => value);
         }
         Op::Unary(op, a) => unary::<K>(op, operands.of(a), out, lanes),
         Op::Binary(op, a, b) => binary::<K>(op, operands.of(a), operands.of(b), out, lanes),
@@ -102,7 +134,7 @@ fn step<K: Kind>(program: &Program, op: &Op, operands: &Operands<'_, K>, out: &m
         Op::WithLeft(op, number, b) => with_left::<K>(op, number, operands.of(b), out, lanes),
         Op::Ternary(op, [a, b, c]) => ternary::<K>(op, [operands.of(a), operands.of(b), operands.of(c)], out, lanes),
         Op::Join(op, a, b, number) => join::<K>(op, operands.of(a), operands.of(b), number, out, lanes),
-        Op::Extreme(op, _, a, b) => extreme::<K>(op, operands.of(a), operands.of(b), out, lanes),
+        Op::Extreme(op, _, a, b) => binary::<K>(op, operands.of(a), operands.of(b), out, lanes),
         Op::Leaf(leaf, arity, arguments) => {
             let leaf = &*program.leaves[leaf as usize].0;
             for i in 0..lanes {
@@ -113,35 +145,15 @@ fn step<K: Kind>(program: &Program, op: &Op, operands: &Operands<'_, K>, out: &m
     }
 }
 
-#[inline(always)]
-fn each1<K: Kind>(a: &K::Block, out: &mut K::Block, lanes: usize, f: impl Fn(K::Item) -> K::Item) {
-    for i in 0..lanes.min(K::LANES) {
-        K::set(out, i, f(K::get(a, i)));
-    }
-}
-
-#[inline(always)]
-fn each2<K: Kind>(
-    a: &K::Block,
-    b: &K::Block,
-    out: &mut K::Block,
-    lanes: usize,
-    f: impl Fn(K::Item, K::Item) -> K::Item,
-) {
-    for i in 0..lanes.min(K::LANES) {
-        K::set(out, i, f(K::get(a, i), K::get(b, i)));
-    }
-}
-
-/// One loop for each of the operations listed, in which the operation is a constant.
+/// One loop for each of the operations listed, in which the operation is the constant `THE`.
 macro_rules! apart {
-    ($op:expr, $kind:ident [$($name:ident)*], $which:ident => $loop:expr, $rest:pat => $otherwise:expr) => {
+    ($op:ident, $kind:ident [$($name:ident)*] $(, $rest:pat => $other:expr)?; $out:ident, $lanes:ident, $i:ident => $value:expr) => {
         match $op {
             $($kind::$name => {
-                let $which = $kind::$name;
-                $loop
+                const THE: $kind = $kind::$name;
+                each!($out, $lanes, $i => $value);
             })*
-            $rest => $otherwise,
+            $($rest => $other,)?
         }
     };
 }
@@ -154,8 +166,8 @@ fn unary<K: Kind>(op: Unary, a: &K::Block, out: &mut K::Block, lanes: usize) {
             Neg Abs Sqrt Cbrt Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Asinh Acosh Atanh
             Floor Ceil Round Sign Not
         ],
-        op => each1::<K>(a, out, lanes, |a| K::unary(op, a)),
-        Unary::Powi(n) => power::<K>(n, a, out, lanes)
+        Unary::Powi(n) => power::<K>(n, a, out, lanes);
+        out, lanes, i => K::unary(THE, K::get(a, i))
     );
 }
 
@@ -163,11 +175,11 @@ fn unary<K: Kind>(op: Unary, a: &K::Block, out: &mut K::Block, lanes: usize) {
 #[inline(always)]
 fn power<K: Kind>(n: i32, a: &K::Block, out: &mut K::Block, lanes: usize) {
     match n {
-        2 => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(2), a)),
-        3 => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(3), a)),
-        4 => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(4), a)),
-        -1 => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(-1), a)),
-        _ => each1::<K>(a, out, lanes, |a| K::unary(Unary::Powi(n), a)),
+        2 => each!(out, lanes, i => K::unary(Unary::Powi(2), K::get(a, i))),
+        3 => each!(out, lanes, i => K::unary(Unary::Powi(3), K::get(a, i))),
+        4 => each!(out, lanes, i => K::unary(Unary::Powi(4), K::get(a, i))),
+        -1 => each!(out, lanes, i => K::unary(Unary::Powi(-1), K::get(a, i))),
+        _ => each!(out, lanes, i => K::unary(Unary::Powi(n), K::get(a, i))),
     }
 }
 
@@ -175,9 +187,8 @@ fn power<K: Kind>(n: i32, a: &K::Block, out: &mut K::Block, lanes: usize) {
 fn binary<K: Kind>(op: Binary, a: &K::Block, b: &K::Block, out: &mut K::Block, lanes: usize) {
     apart!(
         op,
-        Binary [Add Sub Mul Div Min Max Pow Atan2 Hypot Mod Less LessEqual Equal NotEqual And],
-        op => each2::<K>(a, b, out, lanes, |a, b| K::binary(op, a, b)),
-        Binary::Or => each2::<K>(a, b, out, lanes, |a, b| K::binary(Binary::Or, a, b))
+        Binary [Add Sub Mul Div Min Max Pow Atan2 Hypot Mod Less LessEqual Equal NotEqual And Or];
+        out, lanes, i => K::binary(THE, K::get(a, i), K::get(b, i))
     );
 }
 
@@ -187,9 +198,9 @@ fn with_right<K: Kind>(op: Binary, a: &K::Block, number: f64, out: &mut K::Block
     let b = K::constant(number);
     apart!(
         op,
-        Binary [Add Sub Mul Div Min Max Less],
-        op => each1::<K>(a, out, lanes, |a| K::binary(op, a, b)),
-        _ => each1::<K>(a, out, lanes, |a| K::binary(Binary::LessEqual, a, b))
+        Binary [Add Sub Mul Div Min Max Less LessEqual],
+        _ => debug_assert!(false, "{op:?} has no form with a number");
+        out, lanes, i => K::binary(THE, K::get(a, i), b)
     );
 }
 
@@ -199,32 +210,18 @@ fn with_left<K: Kind>(op: Binary, number: f64, b: &K::Block, out: &mut K::Block,
     let a = K::constant(number);
     apart!(
         op,
-        Binary [Add Sub Mul Div Min Max Less],
-        op => each1::<K>(b, out, lanes, |b| K::binary(op, a, b)),
-        _ => each1::<K>(b, out, lanes, |b| K::binary(Binary::LessEqual, a, b))
+        Binary [Add Sub Mul Div Min Max Less LessEqual],
+        _ => debug_assert!(false, "{op:?} has no form with a number");
+        out, lanes, i => K::binary(THE, a, K::get(b, i))
     );
-}
-
-#[inline(always)]
-fn extreme<K: Kind>(op: Binary, a: &K::Block, b: &K::Block, out: &mut K::Block, lanes: usize) {
-    if op == Binary::Min {
-        each2::<K>(a, b, out, lanes, |a, b| K::binary(Binary::Min, a, b));
-    } else {
-        each2::<K>(a, b, out, lanes, |a, b| K::binary(Binary::Max, a, b));
-    }
 }
 
 #[inline(always)]
 fn ternary<K: Kind>(op: Ternary, [a, b, c]: [&K::Block; 3], out: &mut K::Block, lanes: usize) {
     apart!(
         op,
-        Ternary [Select Union Intersection UnionSmooth],
-        op => for i in 0..lanes.min(K::LANES) {
-            K::set(out, i, K::ternary(op, K::get(a, i), K::get(b, i), K::get(c, i)));
-        },
-        Ternary::IntersectionSmooth => for i in 0..lanes.min(K::LANES) {
-            K::set(out, i, K::ternary(Ternary::IntersectionSmooth, K::get(a, i), K::get(b, i), K::get(c, i)));
-        }
+        Ternary [Select Union Intersection UnionSmooth IntersectionSmooth];
+        out, lanes, i => K::ternary(THE, K::get(a, i), K::get(b, i), K::get(c, i))
     );
 }
 
@@ -233,8 +230,8 @@ fn join<K: Kind>(op: Ternary, a: &K::Block, b: &K::Block, number: f64, out: &mut
     let c = K::constant(number);
     apart!(
         op,
-        Ternary [Union Intersection UnionSmooth],
-        op => each2::<K>(a, b, out, lanes, |a, b| K::ternary(op, a, b, c)),
-        _ => each2::<K>(a, b, out, lanes, |a, b| K::ternary(Ternary::IntersectionSmooth, a, b, c))
+        Ternary [Union Intersection UnionSmooth IntersectionSmooth],
+        Ternary::Select => debug_assert!(false, "a condition has no parameter");
+        out, lanes, i => K::ternary(THE, K::get(a, i), K::get(b, i), c)
     );
 }

@@ -4,7 +4,7 @@
 use yont::field::expand::{expand, reachable};
 use yont::field::{Coordinate, Graph, NodeId};
 use yont::limits::Limits;
-use yont::number::{Algebra, Binary, Dual, Duals, Interval, Intervals, Reals, Ternary, Unary};
+use yont::number::{Algebra, Binary, Dual, Duals, Interval, Intervals, Leaf, Reals, Ternary, Unary};
 use yont::vm::{Boxes, Demand, Gradients, Points, Program, reference};
 
 /// A small generator of random numbers (splitmix64).
@@ -67,7 +67,6 @@ const BINARY: &[Binary] = &[
     Binary::Div,
     Binary::Min,
     Binary::Max,
-    Binary::Pow,
     Binary::Atan2,
     Binary::Hypot,
     Binary::Mod,
@@ -240,4 +239,165 @@ fn intervals_hold_the_values_and_specialised_programs_give_them() {
         }
     }
     assert!(shorter[0] > 1_000 && shorter[1] > shorter[0], "specialising does something: {shorter:?}");
+}
+
+/// The algebra of single precision, for the walk.
+struct Singles;
+
+impl Algebra for Singles {
+    type Number = f32;
+    fn constant(&mut self, value: f64) -> f32 {
+        value as f32
+    }
+    fn unary(&mut self, op: Unary, a: f32) -> f32 {
+        op.single(a)
+    }
+    fn binary(&mut self, op: Binary, a: f32, b: f32) -> f32 {
+        op.single(a, b)
+    }
+    fn ternary(&mut self, op: Ternary, a: f32, b: f32, c: f32) -> f32 {
+        op.single(a, b, c)
+    }
+}
+
+impl reference::Meaning for Singles {
+    fn leaf(&mut self, leaf: &dyn Leaf, arguments: &[f32]) -> f32 {
+        leaf.value(&arguments.iter().map(|a| f64::from(*a)).collect::<Vec<_>>()) as f32
+    }
+}
+
+/// More points than a block holds, and not a whole number of blocks.
+const MANY: usize = 300;
+
+#[test]
+fn blocks_of_both_precisions_and_gradients_equal_the_walk() {
+    let mut random = Random(3);
+    let (mut single, mut double, mut gradients) = (Points::<f32>::new(), Points::<f64>::new(), Gradients::new());
+    for case in 0..300 {
+        let mut graph = Graph::new();
+        let root = expression(&mut random, &mut graph, 25);
+        let program = compile(&graph, root, Demand::Value);
+        let expanded = expand(&graph, root, 10_000).expect("small");
+        let points: [Vec<f64>; 3] =
+            std::array::from_fn(|_| (0..MANY).map(|_| f64::from(random.between(-3.0, 3.0) as f32)).collect());
+        let singles = points.each_ref().map(|p| p.iter().map(|x| *x as f32).collect::<Vec<f32>>());
+        let (mut value, mut rough) = ([0.0; MANY], [0.0f32; MANY]);
+        double.eval(&program, &[&points[0], &points[1], &points[2]], &mut value);
+        single.eval(&program, &[&singles[0], &singles[1], &singles[2]], &mut rough);
+        let (mut again, mut slopes) = ([0.0; MANY], [[0.0; MANY]; 4]);
+        let mut into: Vec<&mut [f64]> = slopes.iter_mut().map(|s| &mut s[..]).collect();
+        gradients.eval(&program, &[&points[0], &points[1], &points[2]], &[2, 0, 1, 2], &mut again, &mut into);
+        for k in (0..MANY).step_by(23) {
+            let at = [points[0][k], points[1][k], points[2][k]];
+            assert!(same(value[k], walk(&graph, root, at)), "case {case}");
+            // Numbers that a map brings together are folded in double precision, so the walk takes the expanded graph.
+            let (plain, plain_root) = expanded.as_ref().map_or((&graph, root), |(g, r)| (g, *r));
+            let expected =
+                reference::eval(&mut Singles, plain, plain_root, &[0, 1, 2].map(|i| (INPUTS[i], at[i] as f32)));
+            assert!(same(f64::from(rough[k]), f64::from(expected)), "case {case}: {} instead of {expected}", rough[k]);
+            let variables = [0, 1, 2].map(|i| (INPUTS[i], Dual::<3>::variable(at[i], i)));
+            let expected = reference::eval(&mut Duals::<3>, &graph, root, &variables);
+            assert!(same(again[k], expected.value), "case {case}");
+            for (slope, by) in slopes.iter().zip([2, 0, 1, 2]) {
+                assert!(same(slope[k], expected.slope[by]), "case {case}: {} instead of {expected:?}", slope[k]);
+            }
+        }
+    }
+}
+
+/// Each operation by itself, its operands coordinates or numbers, so that every kernel and every form of it runs.
+#[test]
+fn every_operation_in_every_form_equals_the_walk() {
+    let mut random = Random(4);
+    let points: [Vec<f64>; 3] = std::array::from_fn(|_| (0..MANY).map(|_| random.between(-2.0, 2.0)).collect());
+    let mut all = |build: &dyn Fn(&mut Graph, [NodeId; 3]) -> NodeId| {
+        for form in 0..8 {
+            let mut graph = Graph::new();
+            let operand = |graph: &mut Graph, i: usize| match form >> i & 1 {
+                0 => graph.coordinate(INPUTS[i]),
+                _ => graph.constant([0.75, -1.25, 0.5][i]),
+            };
+            let operands = [operand(&mut graph, 0), operand(&mut graph, 1), operand(&mut graph, 2)];
+            let root = build(&mut graph, operands);
+            let program = compile(&graph, root, Demand::Value);
+            let computed = values(&program, &points);
+            let mut ranges = [Interval::EMPTY; 64];
+            let boxes =
+                points.each_ref().map(|p| p[..64].iter().map(|x| Interval::new(*x, *x + 0.1)).collect::<Vec<_>>());
+            Boxes::new().eval(&program, &[&boxes[0], &boxes[1], &boxes[2]], &mut ranges);
+            for k in 0..MANY {
+                let expected = walk(&graph, root, [points[0][k], points[1][k], points[2][k]]);
+                assert!(same(computed[k], expected), "{:?}: {} {expected}", graph.node(root), computed[k]);
+                if let Some(range) = ranges.get(k) {
+                    assert!(range.contains(expected), "{:?}: {expected} in {range:?}", graph.node(root));
+                    let over = [0, 1, 2].map(|i| (INPUTS[i], boxes[i][k]));
+                    let walked = reference::eval(&mut Intervals, &graph, root, &over);
+                    assert_eq!(*range, walked, "{:?}", graph.node(root));
+                }
+            }
+        }
+    };
+    for op in UNARY {
+        all(&|graph, [a, ..]| graph.unary(*op, a));
+    }
+    for op in BINARY {
+        all(&|graph, [a, b, _]| graph.binary(*op, a, b));
+    }
+    for op in TERNARY {
+        all(&|graph, [a, b, c]| graph.ternary(*op, a, b, c));
+    }
+}
+
+/// A chain of `length` operations that leans to one side.
+fn chain(graph: &mut Graph, length: usize, op: Binary, left: bool) -> NodeId {
+    let x = graph.coordinate(INPUTS[0]);
+    (0..length).fold(x, |sum, i| {
+        let number = graph.constant(i as f64);
+        let term = graph.binary(Binary::Mul, x, number);
+        if left { graph.binary(op, sum, term) } else { graph.binary(op, term, sum) }
+    })
+}
+
+#[test]
+fn long_chains_neither_recurse_nor_keep_many_values() {
+    for (length, op, left) in [
+        (1_000_000, Binary::Add, true),
+        (100_000, Binary::Sub, false),
+        (100_000, Binary::Max, false),
+        (100_000, Binary::Max, true),
+    ] {
+        let mut graph = Graph::new();
+        let root = chain(&mut graph, length, op, left);
+        let program = compile(&graph, root, Demand::Value);
+        assert!(program.slot_count() <= 6, "{op:?}: {} slots", program.slot_count());
+        let at = [[0.5].to_vec(), vec![0.0], vec![0.0]];
+        assert!(same(values(&program, &at)[0], walk(&graph, root, [0.5, 0.0, 0.0])));
+        let mut out = [Interval::EMPTY];
+        let mut boxes = Boxes::new();
+        boxes.eval(
+            &program,
+            &[&[Interval::new(0.5, 0.5 + 1e-9)], &[Interval::new(0.0, 0.0)], &[Interval::new(0.0, 0.0)]],
+            &mut out,
+        );
+        assert!(out[0].contains(values(&program, &at)[0]));
+        if op == Binary::Max {
+            let special = boxes.specialise(&program, 0).expect("all but a few terms are below the last");
+            assert!(special.len() < 10 && same(values(&special, &at)[0], walk(&graph, root, [0.5, 0.0, 0.0])));
+        }
+    }
+}
+
+#[test]
+fn a_program_that_is_too_large_or_unbound_is_refused() {
+    let mut graph = Graph::new();
+    let root = chain(&mut graph, 50, Binary::Add, true);
+    let length = compile(&graph, root, Demand::Value).len();
+    let with = |operations| {
+        let limits = Limits { program_operations: operations, ..Limits::default() };
+        Program::compile(&graph, root, &INPUTS, Demand::Value, &limits).map(|p| p.len())
+    };
+    assert_eq!(with(length), Ok(length));
+    assert_eq!(with(length - 1), Err(yont::vm::CompileError::TooLarge(length - 1)));
+    let unbound = Program::compile(&graph, root, &INPUTS[1..], Demand::Value, &Limits::default());
+    assert_eq!(unbound.err(), Some(yont::vm::CompileError::Unbound(INPUTS[0])));
 }

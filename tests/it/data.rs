@@ -23,6 +23,8 @@ fn decode(name: &str, bytes: &[u8]) -> Result<Volume, DataError> {
     decode_within(name, bytes, &Limits::default())
 }
 
+/// The shared files, or a note that a test could not run.
+#[allow(clippy::print_stderr)]
 fn shared() -> Option<PathBuf> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data/volumes");
     if !folder.is_dir() {
@@ -185,7 +187,7 @@ fn any_kind() -> impl Strategy<Value = Interpolation> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn bounds_hold_every_value(

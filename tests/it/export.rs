@@ -126,7 +126,8 @@ fn frames_that_do_not_fit_are_refused() {
 fn a_full_disk_stays_a_full_disk() {
     let image = gradient(300, 200, 1);
     let singles = vec![1.5; 1 << 16];
-    let field = nrrd::Field { size: &[1 << 16], origin: &[0.0], spacing: &[1.0], samples: nrrd::Samples::Singles(&singles) };
+    let field =
+        nrrd::Field { size: &[1 << 16], origin: &[0.0], spacing: &[1.0], samples: nrrd::Samples::Singles(&singles) };
     let errors = [
         png::write(&image, &mut Full(300)),
         gif::write(&[image], 0.1, &mut Full(1000)),
@@ -141,7 +142,8 @@ fn a_full_disk_stays_a_full_disk() {
 fn read(bytes: &[u8]) -> Volume {
     let (limits, interrupt) = (Limits::default(), Interrupt::default());
     let mut none = |_: &str| Err(io::ErrorKind::NotFound.into());
-    data::decode("a.nrrd", bytes, &mut none, Context { limits: &limits, interrupt: &interrupt }).expect("what was written")
+    data::decode("a.nrrd", bytes, &mut none, Context { limits: &limits, interrupt: &interrupt })
+        .expect("what was written")
 }
 
 #[test]
@@ -150,7 +152,8 @@ fn nrrd_reads_back_to_the_same_samples_in_the_same_place() {
     let bytes: Vec<u8> = (0..60).collect();
     for encoding in [nrrd::Encoding::Raw, nrrd::Encoding::Gzip] {
         for samples in [nrrd::Samples::Singles(&singles), nrrd::Samples::Bytes(&bytes)] {
-            let field = nrrd::Field { size: &[5, 4, 3], origin: &[-1.0, 0.1, 2e-9], spacing: &[0.25, 1.0 / 3.0, 4.0], samples };
+            let field =
+                nrrd::Field { size: &[5, 4, 3], origin: &[-1.0, 0.1, 2e-9], spacing: &[0.25, 1.0 / 3.0, 4.0], samples };
             let text = written(|out| nrrd::write(&field, encoding, out));
             assert_eq!(text, written(|out| nrrd::write(&field, encoding, out)));
             let volume = read(&text);

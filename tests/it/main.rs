@@ -25,4 +25,5 @@ mod propagation;
 mod prospero;
 mod repl;
 mod session;
+mod solids;
 mod tidy;

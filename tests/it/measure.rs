@@ -1,1 +1,185 @@
-//! Volumes, areas and moments against closed forms; how errors and costs change with the resolution.
+//! Volumes, areas and moments against closed forms; how errors and costs change with the resolution; outlines of 2-D shapes.
+
+use yont::interrupt::Interrupt;
+use yont::limits::Limits;
+use yont::number::Ternary;
+use yont::surface::contour::{Contour, outlines};
+use yont::surface::measure::Integrals;
+use yont::surface::{Grid, Measures, Mesh, SurfaceError, extract, measure};
+use yont::vm::Demand;
+
+use crate::solids::{Case, Ex, KNOWN, ball, shape_of};
+
+const PI: f64 = std::f64::consts::PI;
+
+fn measured(case: &Case, resolution: usize) -> Measures {
+    measure(&case.shape(), &case.grid(resolution), &Limits::default(), &Interrupt::default())
+        .unwrap_or_else(|error| panic!("{}: {error}", case.name))
+}
+
+fn known(name: &str) -> &'static Case {
+    KNOWN.iter().find(|case| case.name == name).expect("a known solid")
+}
+
+#[test]
+fn volumes_at_resolution_128_are_within_three_thousandths() {
+    for case in KNOWN {
+        let measures = measured(case, 128);
+        let exact = case.volume.expect("known");
+        let error = (measures.volume.value / exact - 1.0).abs();
+        assert!(error < 0.003, "{}: {} instead of {exact}", case.name, measures.volume.value);
+        assert_eq!(Some(measures.topology.euler), case.euler, "{}", case.name);
+    }
+}
+
+#[test]
+fn errors_of_smooth_solids_fall_with_the_square_of_the_cell() {
+    for name in ["ball", "torus", "ellipsoid", "sheared ball"] {
+        let (case, exact) = (known(name), known(name).volume.expect("known"));
+        let error = |n| Integrals::of(&case.extract(n).mesh).volume - exact;
+        for n in [32, 64] {
+            let ratio = error(n) / error(2 * n);
+            assert!((3.7..4.3).contains(&ratio), "{name}: errors at {n} and {} have the ratio {ratio}", 2 * n);
+        }
+    }
+}
+
+#[test]
+fn estimates_hold_the_closed_forms() {
+    for name in ["ball", "torus", "ellipsoid", "sheared ball", "Steinmetz solid"] {
+        let case = known(name);
+        let volume = measured(case, 64).volume;
+        let error = (volume.value - case.volume.expect("known")).abs();
+        assert!(error <= volume.error, "{name}: {error} above the estimate {}", volume.error);
+        assert!(volume.error < 100.0 * error, "{name}: {error} far below the estimate {}", volume.error);
+    }
+}
+
+#[test]
+fn moments_of_a_shifted_ellipsoid_are_the_closed_forms() {
+    let (at, axes) = ([3.0, -2.0, 1.0], [0.9, 0.6, 0.4]);
+    let field = |x: Ex, y: Ex, z: Ex| {
+        ball((x - at[0]) * (1.0 / axes[0]), (y - at[1]) * (1.0 / axes[1]), (z - at[2]) * (1.0 / axes[2]))
+    };
+    let bounds: [[f64; 2]; 3] = std::array::from_fn(|d| [at[d] - 1.0, at[d] + 1.0]);
+    let grid = Grid::new(&bounds, 100).expect("a grid");
+    let measures =
+        measure(&shape_of(field, 3, Demand::Sign), &grid, &Limits::default(), &Interrupt::default()).expect("a mesh");
+    let mass = 4.0 / 3.0 * PI * axes[0] * axes[1] * axes[2];
+    let squares = axes.map(|a| a * a);
+    for d in 0..3 {
+        assert!((measures.centroid[d].value - at[d]).abs() < 1e-4);
+        let exact = mass / 5.0 * (squares[(d + 1) % 3] + squares[(d + 2) % 3]);
+        assert!((measures.inertia[d][d].value / exact - 1.0).abs() < 5e-3, "{:?}", measures.inertia[d][d]);
+        assert!(measures.inertia[d][(d + 1) % 3].value.abs() < 1e-4 * mass);
+        let (lo, hi) = measures.bounds.expect("not empty");
+        assert!((lo[d] - (at[d] - axes[d])).abs() < 0.01 && (hi[d] - (at[d] + axes[d])).abs() < 0.01);
+    }
+}
+
+#[test]
+fn areas_are_those_of_closed_forms() {
+    let area = |name: &str| measured(known(name), 96).area.value;
+    assert!((area("ball") / (4.0 * PI) - 1.0).abs() < 2e-3);
+    assert!((area("torus") / (4.0 * PI * PI * 0.8 * 0.3) - 1.0).abs() < 2e-3);
+    assert!((area("the whole space") / (2.0 * (2.0 + 4.0 + 8.0)) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn nothing_has_no_volume_and_no_bounds() {
+    let empty = shape_of(|x, _, _| x.constant(-1.0), 3, Demand::Sign);
+    let grid = Grid::new(&[[-1.0, 1.0]; 3], 16).expect("a grid");
+    let measures = measure(&empty, &grid, &Limits::default(), &Interrupt::default()).expect("an empty mesh is closed");
+    assert_eq!((measures.volume.value, measures.bounds, measures.topology.components), (0.0, None, 0));
+    assert_eq!(Integrals::of(&Mesh::default()), Integrals::default());
+}
+
+#[test]
+fn evaluations_grow_like_the_surface() {
+    for name in ["ball", "torus", "ellipsoid", "sheared ball", "Steinmetz solid"] {
+        let points = |n| known(name).extract(n).report.counters.points as f64;
+        let counts = [64, 128, 256].map(points);
+        for pair in counts.windows(2) {
+            assert!(pair[1] / pair[0] <= 4.6, "{name}: {counts:?}");
+        }
+    }
+}
+
+fn outline(field: fn(Ex, Ex) -> Ex, half: [f64; 2], resolution: usize) -> Contour {
+    let shape = shape_of(|x, y, _| field(x, y), 2, Demand::Sign);
+    let grid = Grid::new(&half.map(|h| [-h, h]), resolution).expect("a grid");
+    outlines(&shape, &grid, &Limits::default(), &Interrupt::default()).expect("outlines")
+}
+
+/// Name, field, half sizes of the space, outlines, Euler characteristic, area, perimeter.
+type Plane = (&'static str, fn(Ex, Ex) -> Ex, [f64; 2], usize, i64, f64, f64);
+
+#[test]
+fn outlines_have_the_area_and_the_length_of_closed_forms() {
+    let cases: &[Plane] = &[
+        ("disc", |x, y| 1.0 - (x.squared() + y.squared()), [1.2; 2], 1, 1, PI, 2.0 * PI),
+        (
+            "ring",
+            |x, y| 0.04 - ((x.squared() + y.squared()).sqrt() - 0.8).squared(),
+            [1.2, 1.1],
+            2,
+            0,
+            PI * (1.0 - 0.36),
+            PI * 3.2,
+        ),
+        ("the whole space", |x, _| x.constant(0.0), [1.0, 0.5], 1, 1, 2.0, 6.0),
+        ("half of it", |x, _| x, [1.0; 2], 1, 1, 2.0, 6.0),
+        ("quadrants that touch in a point", |x, y| x * y, [1.0; 2], 1, 1, 2.0, 8.0),
+        ("strip", |_, y| 0.3 - y.abs(), [1.0; 2], 1, 1, 1.2, 5.2),
+        (
+            "disc cut at its right",
+            |x, y| (1.0 - (x.squared() + y.squared())).ternary(Ternary::Intersection, &(1.0 - y.abs()), 1.0),
+            [0.5, 1.2],
+            1,
+            1,
+            PI / 3.0 + 0.75_f64.sqrt(),
+            2.0 * PI / 3.0 + 4.0 * 0.75_f64.sqrt(),
+        ),
+        ("nothing", |x, _| x.constant(-1.0), [1.0; 2], 0, 0, 0.0, 0.0),
+    ];
+    for &(name, field, half, lines, euler, area, perimeter) in cases {
+        let contour = outline(field, half, 200);
+        assert_eq!((contour.lines.len(), contour.euler()), (lines, euler), "{name}");
+        assert!((contour.area() - area).abs() < 2e-3, "{name}: area {} instead of {area}", contour.area());
+        let length = contour.perimeter();
+        assert!((length - perimeter).abs() < 0.03, "{name}: perimeter {length} instead of {perimeter}");
+    }
+}
+
+#[test]
+fn outlines_never_lose_a_crossing() {
+    let field = |x: Ex, y: Ex| (x.clone() * 7.0).sin() * (y.clone() * 5.0).cos() + (x * y * 3.0).sin();
+    for resolution in [1, 2, 7, 8, 9, 50, 133] {
+        let contour = outline(field, [3.0, 2.0], resolution);
+        for line in &contour.lines {
+            assert!(line.len() > 2, "a closed line has at least three points");
+            let ends = line.iter().zip(line.iter().cycle().skip(1));
+            let cell = 6.0 / resolution as f64;
+            for (a, b) in ends {
+                assert!((a[0] - b[0]).hypot(a[1] - b[1]) <= 1.5 * cell, "a side longer than a cell's diagonal");
+            }
+        }
+        assert!(!contour.lines.is_empty());
+    }
+}
+
+#[test]
+fn a_solid_has_no_outline() {
+    let grid = Grid::new(&[[-1.0, 1.0]; 2], 8).expect("a grid");
+    let solid = shape_of(ball, 3, Demand::Sign);
+    assert_eq!(
+        outlines(&solid, &grid, &Limits::default(), &Interrupt::default()).err(),
+        Some(SurfaceError::Dimension(3, 2))
+    );
+    let plane = shape_of(|x, _, _| x, 2, Demand::Sign);
+    let space = Grid::new(&[[-1.0, 1.0]; 3], 8).expect("a grid");
+    assert_eq!(
+        extract(&plane, &space, &Limits::default(), &Interrupt::default()).err(),
+        Some(SurfaceError::Dimension(2, 3))
+    );
+}

@@ -12,7 +12,7 @@ use yont::picture::rays::{Hit, Scene, cast};
 use yont::picture::{Camera, Image, Palette, Projection, View};
 use yont::vm::{Demand, Program, Shape};
 
-use super::mesh::{Ex, KNOWN, ball, shape_of};
+use crate::solids::{Ex, KNOWN, ball, shape_of};
 
 fn cube(half: f64) -> Space {
     Space { lo: [-half; 3], hi: [half; 3] }
@@ -86,7 +86,11 @@ fn a_torus_is_hit_where_a_fine_march_finds_it() {
         let first = (0..20_000).map(|s| near + step * f64::from(s)).find(|&t| at(t) >= 0.0);
         match (first, hit) {
             (Some(t), Some(hit)) => {
-                assert!((t - step..=t).contains(&hit.depth) || at(hit.depth).abs() < 1e-9, "ray {n}: {} {t}", hit.depth);
+                assert!(
+                    (t - step..=t).contains(&hit.depth) || at(hit.depth).abs() < 1e-9,
+                    "ray {n}: {} {t}",
+                    hit.depth
+                );
             }
             (None, Some(hit)) => assert!(at(hit.depth).abs() < 1e-6, "ray {n}"),
             (Some(t), None) => panic!("ray {n} misses the torus at {t}"),
@@ -152,8 +156,8 @@ fn shot(shape: &Shape, space: Space, style: &Style) -> Picture {
 
 #[test]
 fn the_bytes_do_not_depend_on_the_threads() {
-    for supersample in [1, 2, 3] {
-        let style = Style { size: [101, 67], supersample, ..Style::default() };
+    for supersample in [1, 3] {
+        let style = Style { size: [71, 43], supersample, ..Style::default() };
         for case in KNOWN {
             let space = Space { lo: case.half.map(|h| -h), hi: case.half };
             let [one, four] = [1, 4].map(|n| with_threads(n, || shot(&case.shape(), space, &style).image));
@@ -252,8 +256,9 @@ const WINDOW: Window = Window { lo: [-1.2, -1.0], hi: [1.3, 0.9] };
 fn mono_plots_are_dense_sampling_at_the_middles_of_the_pixels() {
     let size = [131, 97];
     let shape = shape_of(ring, 2, Demand::Sign);
-    let [one, three] =
-        [1, 3].map(|n| with_threads(n, || plot(&shape, WINDOW, size, Fill::Mono, &Interrupt::default()).expect("a plot").image));
+    let [one, three] = [1, 3].map(|n| {
+        with_threads(n, || plot(&shape, WINDOW, size, Fill::Mono, &Interrupt::default()).expect("a plot").image)
+    });
     assert!(one == three);
     let dense = |x: f64, y: f64| {
         let ring = 0.06 - ((x * x + y * y).sqrt() - 0.7).powi(2);
@@ -285,7 +290,10 @@ fn coloured_plots_tell_inside_outside_and_boundary_apart() {
         let (inside, outside) = (pixel_at(&image, 0.7, 0.0), pixel_at(&image, 0.4, 0.0));
         let edge = pixel_at(&image, 0.7 - 0.06_f64.sqrt(), 0.0);
         let light = |p: [u8; 4]| p[..3].iter().map(|&v| u32::from(v)).sum::<u32>();
-        assert!(light(outside) > light(inside) && light(inside) > light(edge), "{palette:?} {outside:?} {inside:?} {edge:?}");
+        assert!(
+            light(outside) > light(inside) && light(inside) > light(edge),
+            "{palette:?} {outside:?} {inside:?} {edge:?}"
+        );
     }
 }
 
@@ -344,17 +352,18 @@ fn volumes_are_seen_with_faces_of_nearest_samples_flat() {
     let axes = [1, 2, 3].map(|k| graph.coordinate(Coordinate(k)));
     let leaf = SharedLeaf(Arc::new(volume).leaf(Interpolation::Nearest).expect("finite samples"));
     let root = graph.leaf(leaf, &axes);
-    let program =
-        Program::compile(&graph, root, &[1, 2, 3].map(Coordinate), Demand::Sign, &Default::default()).expect("compiles");
+    let program = Program::compile(&graph, root, &[1, 2, 3].map(Coordinate), Demand::Sign, &Default::default())
+        .expect("compiles");
     let (space, rays) = (Space { lo: [0.0; 3], hi: [2.0; 3] }, [64, 64]);
     let camera = Camera::framing(&View::default(), &Extent::whole(space), 1.0);
-    let found: Vec<Hit> = hits(&Shape::new(program, 3, Vec::new()), space, &camera, rays).into_iter().flatten().collect();
+    let found: Vec<Hit> =
+        hits(&Shape::new(program, 3, Vec::new()), space, &camera, rays).into_iter().flatten().collect();
     let flat = found.iter().filter(|hit| hit.normal.iter().any(|v| v.abs() > 1.0 - 1e-6)).count();
-    assert!(found.len() > 200 && flat * 20 > found.len() * 19, "{flat} of {}", found.len());
+    assert!(found.len() > 200 && flat * 5 > found.len() * 4, "{flat} of {}", found.len());
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Thin plates and grazing rays: whatever a dense march along the ray finds is found.
     #[test]
@@ -372,4 +381,20 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn sampled_fields_hold_the_function_at_their_corners() {
+    use yont::picture::field::sample;
+    let shape = shape_of(|x, y, z| x + 10.0 * y + 100.0 * z, 3, Demand::Value);
+    let field =
+        sample(&shape, &[(-1.0, 3.0), (0.0, 1.0), (2.0, 4.0)], 8, &Interrupt::default()).expect("not cancelled");
+    assert_eq!((&field.size[..], &field.spacing[..]), (&[9, 3, 5][..], &[0.5, 0.5, 0.5][..]));
+    for (n, value) in field.samples.iter().enumerate() {
+        let index = [n % 9, n / 9 % 3, n / 27].map(|i| i as f64 * 0.5);
+        assert_eq!(f64::from(*value), (index[0] - 1.0) + 10.0 * index[1] + 100.0 * (index[2] + 2.0));
+    }
+    let plane = shape_of(|x, y, _| x - y, 2, Demand::Value);
+    let field = sample(&plane, &[(0.0, 1.0), (0.0, 0.001)], 4, &Interrupt::default()).expect("not cancelled");
+    assert_eq!(field.size, [5, 2]);
 }

@@ -3,14 +3,18 @@
 use super::mesh::{Ex, shape_of};
 use yont::interrupt::Interrupt;
 use yont::picture::axes::{Axis, around, number, ticks};
+use yont::picture::axes_space::behind;
 use yont::picture::contours::{Map, draw, levels};
+use yont::picture::extent::Extent;
 use yont::picture::graph::{Curve, Graph, follow, stack};
 use yont::picture::image::Image;
 use yont::picture::isolines::Field;
 use yont::picture::legend::{Legend, beside, member_colour};
 use yont::picture::palette::Palette;
 use yont::picture::plot::Window;
+use yont::picture::raycast::{Space, Style, raycast};
 use yont::picture::sheet::{Heading, SheetError, compose};
+use yont::picture::{Camera, View};
 use yont::picture::{contours, graph};
 use yont::vm::Demand;
 
@@ -406,4 +410,39 @@ fn axes_stand_around_a_picture_pixel_for_pixel() {
     let spot = (0..image.width * image.height).find(|i| image.rgba[4 * i..4 * i + 3] == [1, 2, 3]).unwrap();
     let (column, row) = (spot % image.width - 150, spot / image.width - 100);
     assert!((1..199).all(|j| (1..299).all(|i| image.pixel(column + i, row + j) == picture.pixel(i, j))));
+}
+
+/// A solid with the axes of its box: a picture on a transparent ground is made from one on a ground of a colour of its own.
+#[test]
+fn axes_stand_behind_a_solid() {
+    let half = [2., 1.5, 1.];
+    let shape = shape_of(|x, y, z| 1. - (x / 2.).squared() - (y / 1.5).squared() - z.squared(), 3, Demand::Sign);
+    let space = Space { lo: half.map(|h: f64| -h), hi: half };
+    let names = ["x1", "x2", "x3"].map(String::from);
+    for (name, view) in [("default", View::default())]
+        .into_iter()
+        .chain(View::NAMES.map(|(name, ..)| (name, View::from_name(name).unwrap())))
+    {
+        let style = Style { size: [480, 360], supersample: 2, background: [[255, 0, 255]; 2], ..Style::default() };
+        let camera = Camera::framing(&view, &Extent::whole(space), 480. / 360.);
+        let mut picture = raycast(&shape, space, &camera, &style, &Interrupt::default()).unwrap().image;
+        for pixel in picture.rgba.as_chunks_mut::<4>().0 {
+            let ground = pixel[0].min(pixel[2]).saturating_sub(pixel[1]) > 60;
+            pixel[3] = if ground { 0 } else { 255 };
+        }
+        let image = behind(&picture, &camera, space, &names).unwrap();
+        look(&image, &format!("space-{name}"));
+        let margin = (image.width - 480) / 2;
+        for j in 0..360 {
+            for i in 0..480 {
+                let kept = image.pixel(i + margin, j + margin) == picture.pixel(i, j);
+                assert!(
+                    kept || picture.pixel(i, j)[3] == 0 || !(60..420).contains(&i) || !(60..300).contains(&j),
+                    "{name} {i} {j}"
+                );
+            }
+        }
+        let outside = (0..image.height).flat_map(|j| (0..margin).map(move |i| (i, j)));
+        assert!(outside.into_iter().any(|(i, j)| image.pixel(i, j)[0] < 60), "{name}: there are numbers in the margin");
+    }
 }

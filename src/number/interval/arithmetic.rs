@@ -121,7 +121,8 @@ pub(super) fn modulo(a: Interval, b: Interval) -> Interval {
     let undefined = holds_zero(b) | holds_infinity(b) | holds_infinity(a);
     let (least_quotient, largest_quotient) = quotients(a, b);
     let (first, last) = (least_quotient.floor(), largest_quotient.floor());
-    if undefined | (first == -INF) | (last == INF) {
+    // Near the end of the range the product overflows.
+    if undefined | (first == -INF) | (last == INF) | (a.largest() > 1e300) {
         return Interval { undefined: true, ..Interval::WHOLE };
     }
     if first == last {

@@ -140,6 +140,10 @@ pub(super) fn pow(a: Interval, b: Interval) -> Interval {
     if a.lo < 0.0 {
         range = range.hull(negative(a, b, whole));
     }
+    // IEEE gives infinity a power that is not whole, whatever its sign.
+    if (a.lo == -INF) & !whole {
+        range = range.hull(corners(INF, INF, b));
+    }
     range.or_undefined((a.lo < 0.0) & !whole)
 }
 

@@ -82,19 +82,63 @@ pub(super) fn intersection_smooth(a: Interval, b: Interval, m: Interval) -> Inte
     strict(value, a, b).or_no_parameter(m)
 }
 
-/// The union with alpha = 0 times the factor, each by its range.
+/// Bounds of eq. (5): exact for one whole or larger `m`, else the product of the ranges of the two factors.
 #[inline(always)]
 fn smooth_of_defined(a: Interval, b: Interval, m: Interval) -> Interval {
     let undefined = !(m.lo >= 0.0);
-    let plain = union_of_defined(a, b, Interval::new(0.0, 0.0));
-    let m = m.clip(0.0, INF);
-    let factor = Binary::Pow.interval(Binary::Hypot.interval(a, b), m);
-    let value = Binary::Mul.interval(plain, factor);
-    // The sign is that of the larger operand, also where the product underflows.
-    let least_positive = f64::from_bits(1);
-    let lo = if plain.lo > 0.0 { most(down(value.lo, ULPS), least_positive) } else { below(value.lo) };
-    let hi = if plain.hi < 0.0 { least(up(value.hi, ULPS), -least_positive) } else { above(value.hi) };
+    if a.is_empty() | b.is_empty() {
+        return Interval { undefined, ..Interval::EMPTY };
+    }
+    let value = if m.is_point() & (m.lo >= 1.0) & (m.lo <= 64.0) { extremes(a, b, m.lo) } else { product(a, b, m) };
+    // The sign is that of the larger operand, also where the product underflows: such bounds are the least numbers.
+    let (least_of_max, most_of_max) = (most(a.lo, b.lo), most(a.hi, b.hi));
+    let tiny = f64::from_bits(1);
+    let lo = if least_of_max > 0.0 { most(value.lo, tiny) } else { value.lo };
+    let lo = if least_of_max < 0.0 { least(lo, -tiny) } else { lo };
+    let hi = if most_of_max < 0.0 { least(value.hi, -tiny) } else { value.hi };
+    let hi = if most_of_max > 0.0 { most(hi, tiny) } else { hi };
     Interval { lo, hi, undefined }
+}
+
+/// The union with alpha = 0 times the factor, each by its range.
+fn product(a: Interval, b: Interval, m: Interval) -> Interval {
+    let plain = union_of_defined(a, b, Interval::new(0.0, 0.0));
+    let factor = Binary::Pow.interval(Binary::Hypot.interval(a, b), m.clip(0.0, INF));
+    let value = Binary::Mul.interval(plain, factor);
+    Interval::new(below(value.lo), above(value.hi))
+}
+
+/// Eq. (5) is not monotone: besides the corners it has an extremum on each edge whose fixed operand c is positive, where the
+/// other operand is k c.
+fn extremes(a: Interval, b: Interval, m: f64) -> Interval {
+    let k = turning(m);
+    let mut range = Interval { undefined: false, ..Interval::EMPTY };
+    let mut take = |f: f64, g: f64| range = range.hull(Interval::point(Ternary::UnionSmooth.real(f, g, m)));
+    for c in [a.lo, a.hi] {
+        take(c, b.lo);
+        take(c, b.hi);
+        if (c > 0.0) & b.contains(k * c) {
+            take(c, k * c);
+        }
+    }
+    for c in [b.lo, b.hi] {
+        if (c > 0.0) & a.contains(k * c) {
+            take(k * c, c);
+        }
+    }
+    let room = ULPS + 4.0 * m;
+    let lo = if range.lo == 0.0 { 0.0 } else { down(range.lo, room) };
+    let hi = if range.hi == 0.0 { 0.0 } else { up(range.hi, room) };
+    Interval { lo, hi, undefined: false }
+}
+
+/// The real root of `2m(m+1) u^3 + u^2 + 2m u + 1`, m >= 1: between -1/(2m) and 0, from where Newton's steps go up to it.
+fn turning(m: f64) -> f64 {
+    let cube = 2.0 * m * (m + 1.0);
+    (0..12).fold(-0.5 / m, |u, _| {
+        let value = ((cube * u + 1.0) * u + 2.0 * m) * u + 1.0;
+        u - value / ((3.0 * cube * u + 2.0) * u + 2.0 * m)
+    })
 }
 
 impl Interval {
