@@ -23,6 +23,7 @@ pub fn write(frames: &[Image], delay: f64, out: &mut impl Write) -> io::Result<(
 pub struct Encoder<W: Write> {
     png: png::Writer<W>,
     size: [usize; 2],
+    missing: usize,
 }
 
 impl<W: Write> Encoder<W> {
@@ -45,7 +46,7 @@ impl<W: Write> Encoder<W> {
             encoder.set_animated(frames, 0).map_err(failed)?;
             encoder.set_frame_delay(numerator, denominator).map_err(failed)?;
         }
-        Ok(Self { png: encoder.write_header().map_err(failed)?, size: [width, height] })
+        Ok(Self { png: encoder.write_header().map_err(failed)?, size: [width, height], missing: count })
     }
 
     /// Adds a frame.
@@ -56,6 +57,7 @@ impl<W: Write> Encoder<W> {
         if [image.width, image.height] != self.size {
             return Err(unequal());
         }
+        self.missing = self.missing.checked_sub(1).ok_or_else(|| refuse("the animation has all its frames already"))?;
         self.png.write_image_data(&image.rgba).map_err(failed)
     }
 
@@ -64,6 +66,9 @@ impl<W: Write> Encoder<W> {
     /// # Errors
     /// `InvalidInput` if a frame is missing; what the writer fails with.
     pub fn finish(self) -> io::Result<()> {
+        if self.missing > 0 {
+            return Err(refuse(format!("the animation lacks {} of its frames", self.missing)));
+        }
         self.png.finish().map_err(failed)
     }
 }

@@ -1,10 +1,14 @@
 //! Each format is read back by a reader that shares no code with the writer, and compared with what was written.
 
+use super::solids::{Ex, shape_of};
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 use yont::export::{apng, glb, svg, threemf};
+use yont::interrupt::Interrupt;
+use yont::limits::Limits;
 use yont::picture::image::Image;
-use yont::surface::mesh::Mesh;
+use yont::surface::{Grid, Mesh, check, extract};
+use yont::vm::Demand;
 
 /// A ball of triangles: an octahedron, each triangle split in four `times` over, on the sphere about `centre`.
 fn ball(times: usize, radius: f64, centre: [f64; 3]) -> Mesh {
@@ -238,6 +242,65 @@ fn apng_holds_each_frame_and_its_time() {
             assert!((got - delay).abs() < 1e-12, "{delay}: {control:?}");
         }
     }
+}
+
+/// The mesh of a torus, as it is extracted for export.
+fn torus() -> Mesh {
+    let ring = |x: Ex, y: Ex, z: Ex| 0.16 - ((x.squared() + y.squared()).sqrt() - 1.).squared() - z.squared();
+    let grid = Grid::new(&[[-1.5, 1.5]; 3], 40).unwrap();
+    extract(&shape_of(ring, 3, Demand::Sign), &grid, &Limits::default(), &Interrupt::default()).unwrap().mesh
+}
+
+/// The volume inside, by tetrahedra about the origin.
+fn volume(mesh: &Mesh) -> f64 {
+    let triple = |[a, b, c]: [[f64; 3]; 3]| {
+        (0..3).map(|i| a[i] * (b[(i + 1) % 3] * c[(i + 2) % 3] - b[(i + 2) % 3] * c[(i + 1) % 3])).sum::<f64>() / 6.
+    };
+    mesh.triangles.iter().map(|t| triple(t.map(|v| mesh.positions[v as usize]))).sum()
+}
+
+#[test]
+fn meshes_read_back_are_closed_and_measure_the_same() {
+    let mesh = torus();
+    let wanted = volume(&mesh);
+    let mut bytes = Vec::new();
+    glb::write(&mesh, None, "a", &mut bytes).unwrap();
+    let file = gltf::Gltf::from_slice(&bytes).unwrap();
+    let reader = file.meshes().next().unwrap().primitives().next().unwrap();
+    let reader = reader.reader(|_| file.blob.as_deref());
+    let positions = reader.read_positions().unwrap().map(|p| p.map(f64::from)).collect();
+    let corners: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+    let normals = mesh.normals.clone();
+    let from_glb = Mesh { positions, normals: normals.clone(), triangles: corners.as_chunks::<3>().0.to_vec() };
+
+    let mut bytes = Vec::new();
+    threemf::write(&mesh, None, None, "a", &mut bytes).unwrap();
+    let package =
+        threemf2::package::ThreemfPackage::from_reader_with_memory_optimized_deserializer(Cursor::new(&bytes), true)
+            .unwrap();
+    let read = package.root.resources.object[0].get_mesh().unwrap();
+    let positions = read.vertices.vertex.iter().map(|v| [v.x.value(), v.y.value(), v.z.value()]).collect();
+    let triangles = read.triangles.triangle.iter().map(|t| [t.v1, t.v2, t.v3]).collect();
+    let from_3mf = Mesh { positions, normals, triangles };
+    for (name, mesh) in [("GLB", from_glb), ("3MF", from_3mf)] {
+        let topology = check(&mesh).unwrap_or_else(|fault| panic!("{name}: {fault:?}"));
+        assert_eq!((topology.euler, topology.components), (0, 1), "{name}");
+        let got = volume(&mesh);
+        assert!((got / wanted - 1.).abs() < 1e-6, "{name}: {got} for {wanted}");
+    }
+}
+
+#[test]
+fn an_apng_has_as_many_frames_as_it_said() {
+    let image = Image::new(4, 4, [1, 2, 3]);
+    let mut encoder = apng::Encoder::new(Vec::new(), 4, 4, 3, 0.1).unwrap();
+    encoder.frame(&image).unwrap();
+    assert!(encoder.frame(&Image::new(4, 5, [0; 3])).is_err(), "another size");
+    encoder.frame(&image).unwrap();
+    assert!(encoder.finish().is_err(), "too few");
+    let mut encoder = apng::Encoder::new(Vec::new(), 4, 4, 1, 0.1).unwrap();
+    encoder.frame(&image).unwrap();
+    assert!(encoder.frame(&image).is_err(), "too many");
 }
 
 #[test]
