@@ -21,13 +21,23 @@ const TURN: [f32; 16] = [
     0., 0., 0., 1.,
 ];
 
-/// One frame of an animation.
+/// One frame of an animation, or one member of a group.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame<'a> {
+pub struct Part<'a> {
     /// What is seen.
     pub mesh: &'a Mesh,
     /// One sRGB colour for each vertex.
     pub colours: Option<&'a [[u8; 3]]>,
+    /// sRGB and opacity of the whole, by which the vertices' colours are multiplied.
+    pub colour: [u8; 4],
+}
+
+impl<'a> Part<'a> {
+    /// A mesh in white, opaque.
+    #[must_use]
+    pub fn of(mesh: &'a Mesh) -> Self {
+        Part { mesh, colours: None, colour: [255; 4] }
+    }
 }
 
 /// Writes one mesh with normals, and with one sRGB colour for each vertex if there are any.
@@ -35,62 +45,78 @@ pub struct Frame<'a> {
 /// # Errors
 /// Those of the writer; `InvalidInput` for an empty mesh, arrays that do not fit together, or more than 4 GiB.
 pub fn write(mesh: &Mesh, colours: Option<&[[u8; 3]]>, name: &str, out: &mut impl Write) -> io::Result<()> {
+    let part = Part { colours, ..Part::of(mesh) };
     let mut file = File::default();
-    let node = file.frame(&Frame { mesh, colours }, name, None)?;
+    let node = file.part(&part, name, None)?;
     file.finish(vec![node], name, out)
 }
 
-/// Writes frames that follow each other every `seconds`, each shown for that long. A viewer that does not play shows the first.
+/// Writes several meshes that are seen together, each under its own name: a group of sections, or isosurfaces that show through.
 ///
 /// # Errors
-/// As [`write`]; also when there is no frame or `seconds` is not above 0.
-pub fn write_animation(frames: &[Frame], seconds: f32, name: &str, out: &mut impl Write) -> io::Result<()> {
-    if frames.is_empty() || !(seconds > 0. && seconds.is_finite()) {
+/// As [`write`]; also when there is no member.
+pub fn write_group(members: &[(&str, Part)], name: &str, out: &mut impl Write) -> io::Result<()> {
+    if members.is_empty() {
+        return Err(refuse("a group needs a member"));
+    }
+    let mut file = File::default();
+    let nodes = members.iter().map(|(name, part)| file.part(part, name, None)).collect::<io::Result<_>>()?;
+    file.finish(nodes, name, out)
+}
+
+/// Writes frames that follow each other every `delay` seconds, each shown for that long. A viewer that does not play shows the first.
+///
+/// # Errors
+/// As [`write`]; also when there is no frame or `delay` is not above 0.
+pub fn write_animation(frames: &[Part], delay: f64, name: &str, out: &mut impl Write) -> io::Result<()> {
+    if frames.is_empty() || !(delay > 0. && delay.is_finite()) {
         return Err(refuse("an animation needs a frame and a time above 0 for each"));
     }
     let mut file = File::default();
     let mut nodes = Vec::with_capacity(frames.len());
     for (i, frame) in frames.iter().enumerate() {
         let scale = if i == 0 { 1. } else { 0. };
-        nodes.push(file.frame(frame, &format!("{name}-{i:03}"), Some([scale; 3]))?);
+        nodes.push(file.part(frame, &format!("{name}-{i:03}"), Some([scale; 3]))?);
     }
     if frames.len() > 1 {
-        file.animate(&nodes, seconds);
+        file.animate(&nodes, delay);
     }
     file.finish(nodes, name, out)
 }
 
-/// A part of the binary chunk, written only once all lengths are known.
-enum Part<'a> {
+/// A piece of the binary chunk, written only once all lengths are known.
+enum Piece<'a> {
     Vectors(&'a [[f64; 3]]),
     Colours(&'a [[u8; 3]]),
     Triangles(&'a [[u32; 3]]),
     Floats(Vec<f32>),
 }
 
-impl Part<'_> {
-    /// Bytes in the file; all parts keep the alignment of four.
+impl Piece<'_> {
+    /// Bytes in the file; all pieces keep the alignment of four.
     fn len(&self) -> u64 {
         match self {
-            Part::Vectors(all) => all.len() as u64 * 12,
-            Part::Colours(all) => all.len() as u64 * 8,
-            Part::Triangles(all) => all.len() as u64 * 12,
-            Part::Floats(all) => all.len() as u64 * 4,
+            Piece::Vectors(all) => all.len() as u64 * 12,
+            Piece::Colours(all) => all.len() as u64 * 8,
+            Piece::Triangles(all) => all.len() as u64 * 12,
+            Piece::Floats(all) => all.len() as u64 * 4,
         }
     }
 
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
         match self {
-            Part::Vectors(all) => all.iter().flatten().try_for_each(|&x| out.write_all(&(x as f32).to_le_bytes())),
-            Part::Colours(all) => {
+            Piece::Vectors(all) => {
+                all.iter().flatten().try_for_each(|&x| out.write_all(&(x as f32 + 0.).to_le_bytes()))
+            }
+            Piece::Colours(all) => {
                 let linear = linear_table();
                 all.iter().try_for_each(|colour| {
                     colour.iter().try_for_each(|&c| out.write_all(&linear[usize::from(c)].to_le_bytes()))?;
                     out.write_all(&u16::MAX.to_le_bytes())
                 })
             }
-            Part::Triangles(all) => all.iter().flatten().try_for_each(|i| out.write_all(&i.to_le_bytes())),
-            Part::Floats(all) => all.iter().try_for_each(|x| out.write_all(&x.to_le_bytes())),
+            Piece::Triangles(all) => all.iter().flatten().try_for_each(|i| out.write_all(&i.to_le_bytes())),
+            Piece::Floats(all) => all.iter().try_for_each(|x| out.write_all(&x.to_le_bytes())),
         }
     }
 }
@@ -108,11 +134,12 @@ fn linear_table() -> [u16; 256] {
 #[derive(Default)]
 struct File<'a> {
     root: Root,
-    parts: Vec<Part<'a>>,
+    pieces: Vec<Piece<'a>>,
+    colours: Vec<[u8; 4]>,
     length: u64,
 }
 
-/// How the numbers of one part are to be read.
+/// How the numbers of one piece are to be read.
 struct Layout {
     count: usize,
     component: ComponentType,
@@ -133,11 +160,11 @@ impl Layout {
 }
 
 impl<'a> File<'a> {
-    /// Adds a part with its view and accessor.
-    fn part(&mut self, part: Part<'a>, layout: Layout) -> Index<Accessor> {
+    /// Adds a piece with its view and accessor.
+    fn piece(&mut self, piece: Piece<'a>, layout: Layout) -> Index<Accessor> {
         let view = self.root.push(View {
             buffer: Index::new(0),
-            byte_length: USize64(part.len()),
+            byte_length: USize64(piece.len()),
             byte_offset: Some(USize64(self.length)),
             byte_stride: None,
             name: None,
@@ -145,8 +172,8 @@ impl<'a> File<'a> {
             extensions: None,
             extras: Default::default(),
         });
-        self.length += part.len();
-        self.parts.push(part);
+        self.length += piece.len();
+        self.pieces.push(piece);
         let (min, max) = layout.range.map(|(lo, hi)| (json::Value::from(lo), json::Value::from(hi))).unzip();
         self.root.push(Accessor {
             buffer_view: Some(view),
@@ -165,34 +192,35 @@ impl<'a> File<'a> {
     }
 
     /// Adds a mesh and the node that shows it.
-    fn frame(&mut self, frame: &Frame<'a>, name: &str, scale: Option<[f32; 3]>) -> io::Result<Index<json::Node>> {
-        let mesh = frame.mesh;
-        fits_together(mesh, frame.colours)?;
+    fn part(&mut self, part: &Part<'a>, name: &str, scale: Option<[f32; 3]>) -> io::Result<Index<json::Node>> {
+        let mesh = part.mesh;
+        fits_together(mesh, part.colours)?;
         let count = mesh.positions.len();
         let mut attributes = std::collections::BTreeMap::new();
         let layout =
             Layout { range: Some(range(&mesh.positions)), ..Layout::vertices(count, ComponentType::F32, Type::Vec3) };
-        let positions = self.part(Part::Vectors(&mesh.positions), layout);
+        let positions = self.piece(Piece::Vectors(&mesh.positions), layout);
         attributes.insert(Valid(json::mesh::Semantic::Positions), positions);
         if mesh.normals.len() == count {
             let normals =
-                self.part(Part::Vectors(&mesh.normals), Layout::vertices(count, ComponentType::F32, Type::Vec3));
+                self.piece(Piece::Vectors(&mesh.normals), Layout::vertices(count, ComponentType::F32, Type::Vec3));
             attributes.insert(Valid(json::mesh::Semantic::Normals), normals);
         }
-        if let Some(colours) = frame.colours {
+        if let Some(colours) = part.colours {
             let layout = Layout { normalized: true, ..Layout::vertices(count, ComponentType::U16, Type::Vec4) };
-            let colours = self.part(Part::Colours(colours), layout);
+            let colours = self.piece(Piece::Colours(colours), layout);
             attributes.insert(Valid(json::mesh::Semantic::Colors(0)), colours);
         }
         let layout = Layout {
             target: Some(Target::ElementArrayBuffer),
             ..Layout::vertices(mesh.triangles.len() * 3, ComponentType::U32, Type::Scalar)
         };
-        let indices = self.part(Part::Triangles(&mesh.triangles), layout);
+        let indices = self.piece(Piece::Triangles(&mesh.triangles), layout);
+        let material = self.material(part.colour);
         let primitive = json::mesh::Primitive {
             attributes,
             indices: Some(indices),
-            material: Some(Index::new(0)),
+            material: Some(material),
             mode: Valid(json::mesh::Mode::Triangles),
             targets: None,
             extensions: None,
@@ -208,17 +236,41 @@ impl<'a> File<'a> {
         Ok(self.root.push(json::Node { mesh: Some(mesh), name: Some(name.to_owned()), scale, ..Default::default() }))
     }
 
-    /// Gives each node the keys that show it for its own `seconds` and hide it otherwise.
-    fn animate(&mut self, nodes: &[Index<json::Node>], seconds: f32) {
+    /// The number of the matt material of a colour, added when it is new.
+    fn material(&mut self, colour: [u8; 4]) -> Index<json::Material> {
+        use json::material::{AlphaMode, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
+        if let Some(known) = self.colours.iter().position(|c| *c == colour) {
+            return Index::new(known as u32);
+        }
+        self.colours.push(colour);
+        let linear = linear_table();
+        let [r, g, b] = [0, 1, 2].map(|k| f32::from(linear[usize::from(colour[k])]) / 65535.);
+        let opaque = colour[3] == 255;
+        self.root.push(json::Material {
+            alpha_mode: Valid(if opaque { AlphaMode::Opaque } else { AlphaMode::Blend }),
+            // Through a translucent surface its far side is seen from within.
+            double_sided: !opaque,
+            pbr_metallic_roughness: PbrMetallicRoughness {
+                base_color_factor: PbrBaseColorFactor([r, g, b, f32::from(colour[3]) / 255.]),
+                metallic_factor: StrengthFactor(0.),
+                roughness_factor: StrengthFactor(0.6),
+                ..Default::default()
+            },
+            ..Default::default()
+        })
+    }
+
+    /// Gives each node the keys that show it for its own time and hide it otherwise.
+    fn animate(&mut self, nodes: &[Index<json::Node>], delay: f64) {
         use json::animation::{Animation, Channel, Interpolation, Property, Sampler, Target};
         let (mut channels, mut samplers) = (Vec::new(), Vec::new());
         for (i, &node) in nodes.iter().enumerate() {
-            let (times, scales) = keys(i, nodes.len(), seconds);
+            let (times, scales) = keys(i, nodes.len(), delay);
             let range = Some((vec![times[0]], vec![times[times.len() - 1]]));
             let layout = Layout { range, ..Layout::floats(times.len(), Type::Scalar) };
-            let input = self.part(Part::Floats(times), layout);
-            let output = self.part(
-                Part::Floats(scales.iter().flat_map(|&s| [s; 3]).collect()),
+            let input = self.piece(Piece::Floats(times), layout);
+            let output = self.piece(
+                Piece::Floats(scales.iter().flat_map(|&s| [s; 3]).collect()),
                 Layout::floats(scales.len(), Type::Vec3),
             );
             samplers.push(Sampler {
@@ -256,7 +308,6 @@ impl<'a> File<'a> {
         let scene = json::Scene { name: None, nodes: vec![turn], extensions: None, extras: Default::default() };
         self.root.scene = Some(self.root.push(scene));
         self.root.asset.generator = Some("yont".to_owned());
-        self.root.push(material());
         self.root.push(json::Buffer {
             byte_length: USize64(self.length),
             name: None,
@@ -268,6 +319,7 @@ impl<'a> File<'a> {
         text.resize(text.len().next_multiple_of(4), b' ');
         let total = u32::try_from(12 + 8 + text.len() as u64 + 8 + self.length)
             .map_err(|_| refuse("a GLB file cannot exceed 4 GiB; lower the resolution"))?;
+        let mut out = io::BufWriter::with_capacity(1 << 16, out);
         out.write_all(b"glTF")?;
         for word in [2, total, text.len() as u32] {
             out.write_all(&word.to_le_bytes())?;
@@ -276,21 +328,8 @@ impl<'a> File<'a> {
         out.write_all(&text)?;
         out.write_all(&(self.length as u32).to_le_bytes())?;
         out.write_all(b"BIN\0")?;
-        self.parts.iter().try_for_each(|part| part.write(out))
-    }
-}
-
-/// A matt, light material, on which vertex colours show as they are.
-fn material() -> json::Material {
-    use json::material::{PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
-    json::Material {
-        pbr_metallic_roughness: PbrMetallicRoughness {
-            base_color_factor: PbrBaseColorFactor([1., 1., 1., 1.]),
-            metallic_factor: StrengthFactor(0.),
-            roughness_factor: StrengthFactor(0.6),
-            ..Default::default()
-        },
-        ..Default::default()
+        self.pieces.iter().try_for_each(|piece| piece.write(&mut out))?;
+        out.flush()
     }
 }
 
@@ -307,9 +346,9 @@ fn range(positions: &[[f64; 3]]) -> (Vec<f32>, Vec<f32>) {
     (lo, hi)
 }
 
-/// Times and scales of frame `i` of `count`: hidden, shown from `i * seconds` on, hidden again when the next one comes.
-fn keys(i: usize, count: usize, seconds: f32) -> (Vec<f32>, Vec<f32>) {
-    let at = |i: usize| i as f32 * seconds;
+/// Times and scales of frame `i` of `count`: hidden, shown from `i * delay` on, hidden again when the next one comes.
+fn keys(i: usize, count: usize, delay: f64) -> (Vec<f32>, Vec<f32>) {
+    let at = |i: usize| (i as f64 * delay) as f32;
     let last = i + 1 == count;
     match (i, last) {
         (0, _) => (vec![0., at(1)], vec![1., 0.]),

@@ -42,9 +42,11 @@ pub fn write(slices: &[Slice], lo: [f64; 2], hi: [f64; 2], name: &str, out: &mut
     for slice in slices {
         document = document.add(group(slice, thin));
     }
+    let mut out = io::BufWriter::with_capacity(1 << 16, out);
     writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
     // The crate's own writer would need the whole text in a second copy; its `Display` goes straight to the writer.
-    writeln!(out, "{document}")
+    writeln!(out, "{document}")?;
+    out.flush()
 }
 
 fn title(name: &str) -> Element {

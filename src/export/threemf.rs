@@ -32,7 +32,7 @@ const MATERIAL: &str = "http://schemas.microsoft.com/3dmanufacturing/material/20
 const VERTEX_BYTES: u64 = 96;
 const TRIANGLE_BYTES: u64 = 128;
 
-type Package<'a, W> = ZipWriter<StreamWriter<&'a mut W>>;
+type Package<'a, W> = ZipWriter<StreamWriter<Gate<'a, W>>>;
 
 /// Writes one mesh: one sRGB colour for each vertex if there are any, and the bytes of a PNG as thumbnail if there is one.
 ///
@@ -48,7 +48,7 @@ pub fn write<W: Write>(
     fits_together(mesh, colours)?;
     let text = mesh.positions.len() as u64 * VERTEX_BYTES + mesh.triangles.len() as u64 * TRIANGLE_BYTES;
     let small = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Deflated);
-    let mut package = ZipWriter::new_stream(out);
+    let mut package = ZipWriter::new_stream(Gate { out, shut: false });
     package.start_file("[Content_Types].xml", small)?;
     package.write_all(TYPES.as_bytes())?;
     package.start_file("_rels/.rels", small)?;
@@ -66,6 +66,32 @@ pub fn write<W: Write>(
     package.finish()?.into_inner().flush()
 }
 
+/// Lets everything through until a write fails, and swallows what comes after. The package's writer would otherwise try to complete the
+/// failed file while it is dropped, and complain to standard error by itself.
+struct Gate<'a, W> {
+    out: &'a mut W,
+    shut: bool,
+}
+
+impl<W: Write> Write for Gate<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.shut {
+            return Ok(bytes.len());
+        }
+        let result = self.out.write(bytes);
+        // Interruptions by signals are tried again and are no failure; a writer that takes nothing is full.
+        self.shut = match &result {
+            Ok(taken) => *taken == 0 && !bytes.is_empty(),
+            Err(error) => error.kind() != io::ErrorKind::Interrupted,
+        };
+        result
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.shut { Ok(()) } else { self.out.flush() }
+    }
+}
+
 fn model<W: Write>(out: &mut Package<W>, mesh: &Mesh, colours: Option<&[[u8; 3]]>, name: &str) -> io::Result<()> {
     let mut out = io::BufWriter::with_capacity(1 << 16, out);
     writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
@@ -80,8 +106,10 @@ fn model<W: Write>(out: &mut Package<W>, mesh: &Mesh, colours: Option<&[[u8; 3]]
     let numbers = colours.map(|colours| colour_group(&mut out, colours)).transpose()?;
     let group = if numbers.is_some() { r#" pid="1" pindex="0""# } else { "" };
     writeln!(out, r#"<object id="2" type="model" name="{}"{group}><mesh><vertices>"#, escaped(name))?;
-    for [x, y, z] in &mesh.positions {
-        writeln!(out, r#"<vertex x="{}" y="{}" z="{}"/>"#, *x as f32, *y as f32, *z as f32)?;
+    for position in &mesh.positions {
+        // Adding zero turns -0 into 0.
+        let [x, y, z] = position.map(|x| x as f32 + 0.);
+        writeln!(out, r#"<vertex x="{x}" y="{y}" z="{z}"/>"#)?;
     }
     writeln!(out, "</vertices><triangles>")?;
     for &[a, b, c] in &mesh.triangles {

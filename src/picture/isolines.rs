@@ -24,6 +24,9 @@ pub struct Field {
     pub values: Vec<f64>,
 }
 
+/// Values of the function at points of a row: the first two slices are their coordinates, the third takes one value for each.
+pub type Function<'a> = dyn FnMut(&[f64], &[f64], &mut [f64]) + 'a;
+
 /// A line of one level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Isoline {
@@ -34,11 +37,11 @@ pub struct Isoline {
 }
 
 impl Field {
-    /// Samples a function given in rows: it gets the columns' first and the rows' second coordinates, one each for each value asked.
+    /// Samples a function row by row.
     ///
     /// `columns` and `rows` are at least 2; fewer are taken as 2.
     #[must_use]
-    pub fn sample(window: Window, columns: usize, rows: usize, f: &mut dyn FnMut(&[f64], &[f64], &mut [f64])) -> Self {
+    pub fn sample(window: Window, columns: usize, rows: usize, f: &mut Function) -> Self {
         let mut field = Field::blank(window, columns, rows);
         let across: Vec<f64> = (0..field.columns).map(|i| field.place(i, 0)[0]).collect();
         let mut values = std::mem::take(&mut field.values);

@@ -6,6 +6,7 @@
 
 pub mod animation;
 pub mod axes;
+pub mod axes_space;
 pub mod camera;
 pub mod canvas;
 pub mod contours;

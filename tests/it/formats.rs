@@ -1,10 +1,14 @@
 //! Each format is read back by a reader that shares no code with the writer, and compared with what was written.
 
+use super::solids::{Ex, shape_of};
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 use yont::export::{apng, glb, svg, threemf};
+use yont::interrupt::Interrupt;
+use yont::limits::Limits;
 use yont::picture::image::Image;
-use yont::surface::mesh::Mesh;
+use yont::surface::{Grid, Mesh, check, extract};
+use yont::vm::Demand;
 
 /// A ball of triangles: an octahedron, each triangle split in four `times` over, on the sphere about `centre`.
 fn ball(times: usize, radius: f64, centre: [f64; 3]) -> Mesh {
@@ -84,7 +88,7 @@ fn glb_holds_the_mesh() {
 #[test]
 fn glb_shows_one_frame_at_a_time() {
     let meshes = [ball(1, 1., [0.; 3]), ball(2, 2., [0.; 3]), ball(0, 3., [0.; 3])];
-    let frames: Vec<glb::Frame> = meshes.iter().map(|mesh| glb::Frame { mesh, colours: None }).collect();
+    let frames: Vec<glb::Part> = meshes.iter().map(glb::Part::of).collect();
     let mut bytes = Vec::new();
     glb::write_animation(&frames, 0.5, "gob_a", &mut bytes).unwrap();
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
@@ -114,6 +118,26 @@ fn glb_shows_one_frame_at_a_time() {
 }
 
 #[test]
+fn glb_groups_show_through() {
+    let (inner, outer) = (ball(1, 1., [0.; 3]), ball(1, 2., [0.; 3]));
+    let glass = glb::Part { colour: [0, 188, 255, 51], ..glb::Part::of(&outer) };
+    let members = [("f = 1", glb::Part::of(&inner)), ("f = 0", glass), ("again", glass)];
+    let mut bytes = Vec::new();
+    glb::write_group(&members, "gob_a", &mut bytes).unwrap();
+    let file = gltf::Gltf::from_slice(&bytes).unwrap();
+    let nodes: Vec<_> = file.nodes().filter(|n| n.mesh().is_some()).collect();
+    assert_eq!(nodes.iter().map(|n| n.name().unwrap()).collect::<Vec<_>>(), ["f = 1", "f = 0", "again"]);
+    let materials: Vec<_> =
+        nodes.iter().map(|n| n.mesh().unwrap().primitives().next().unwrap().material().index().unwrap()).collect();
+    assert_eq!(materials, [0, 1, 1]);
+    let glass = file.materials().nth(1).unwrap();
+    assert_eq!((glass.alpha_mode(), glass.double_sided()), (gltf::material::AlphaMode::Blend, true));
+    let [r, g, b, a] = glass.pbr_metallic_roughness().base_color_factor();
+    assert!(r == 0. && (g - 0.503).abs() < 1e-3 && b == 1. && a == 0.2, "{r} {g} {b} {a}");
+    assert_eq!(file.materials().next().unwrap().alpha_mode(), gltf::material::AlphaMode::Opaque);
+}
+
+#[test]
 fn threemf_holds_the_mesh_its_colours_and_a_thumbnail() {
     let mesh = ball(3, 2.5, [1., -2., 3.]);
     let colours = colours(&mesh);
@@ -132,8 +156,7 @@ fn threemf_holds_the_mesh_its_colours_and_a_thumbnail() {
     let positions: Vec<[f32; 3]> =
         read.vertices.vertex.iter().map(|v| [v.x.value(), v.y.value(), v.z.value()].map(|x| x as f32)).collect();
     assert_eq!(positions, single(&mesh.positions));
-    let triangles: Vec<[u32; 3]> =
-        read.triangles.triangle.iter().map(|t| [t.v1, t.v2, t.v3].map(|v| v as u32)).collect();
+    let triangles: Vec<[u32; 3]> = read.triangles.triangle.iter().map(|t| [t.v1, t.v2, t.v3]).collect();
     assert_eq!(triangles, mesh.triangles);
     assert_eq!(package.thumbnails.values().next().unwrap().data, picture);
 
@@ -205,9 +228,9 @@ fn apng_holds_each_frame_and_its_time() {
             image
         })
         .collect();
-    for (fps, delay) in [(10., (1, 10)), (12.5, (80, 1000)), (0.01, (1000, 10))] {
+    for delay in [0.1, 0.08, 1. / 24., 1. / 30., 1e-3, 100., 60000.] {
         let mut bytes = Vec::new();
-        apng::write(&frames, fps, &mut bytes).unwrap();
+        apng::write(&frames, delay, &mut bytes).unwrap();
         let mut reader = png::Decoder::new(Cursor::new(&bytes)).read_info().unwrap();
         assert_eq!(reader.info().animation_control().unwrap().num_frames, 4);
         let mut buffer = vec![0; reader.output_buffer_size().unwrap()];
@@ -216,9 +239,68 @@ fn apng_holds_each_frame_and_its_time() {
             assert!(buffer == frame.rgba, "the pixels of a frame");
             let control = reader.info().frame_control().unwrap();
             let got = f64::from(control.delay_num) / f64::from(control.delay_den);
-            assert!((got - f64::from(delay.0) / f64::from(delay.1)).abs() < 1e-12, "{fps}: {control:?}");
+            assert!((got - delay).abs() < 1e-12, "{delay}: {control:?}");
         }
     }
+}
+
+/// The mesh of a torus, as it is extracted for export.
+fn torus() -> Mesh {
+    let ring = |x: Ex, y: Ex, z: Ex| 0.16 - ((x.squared() + y.squared()).sqrt() - 1.).squared() - z.squared();
+    let grid = Grid::new(&[[-1.5, 1.5]; 3], 40).unwrap();
+    extract(&shape_of(ring, 3, Demand::Sign), &grid, &Limits::default(), &Interrupt::default()).unwrap().mesh
+}
+
+/// The volume inside, by tetrahedra about the origin.
+fn volume(mesh: &Mesh) -> f64 {
+    let triple = |[a, b, c]: [[f64; 3]; 3]| {
+        (0..3).map(|i| a[i] * (b[(i + 1) % 3] * c[(i + 2) % 3] - b[(i + 2) % 3] * c[(i + 1) % 3])).sum::<f64>() / 6.
+    };
+    mesh.triangles.iter().map(|t| triple(t.map(|v| mesh.positions[v as usize]))).sum()
+}
+
+#[test]
+fn meshes_read_back_are_closed_and_measure_the_same() {
+    let mesh = torus();
+    let wanted = volume(&mesh);
+    let mut bytes = Vec::new();
+    glb::write(&mesh, None, "a", &mut bytes).unwrap();
+    let file = gltf::Gltf::from_slice(&bytes).unwrap();
+    let reader = file.meshes().next().unwrap().primitives().next().unwrap();
+    let reader = reader.reader(|_| file.blob.as_deref());
+    let positions = reader.read_positions().unwrap().map(|p| p.map(f64::from)).collect();
+    let corners: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+    let normals = mesh.normals.clone();
+    let from_glb = Mesh { positions, normals: normals.clone(), triangles: corners.as_chunks::<3>().0.to_vec() };
+
+    let mut bytes = Vec::new();
+    threemf::write(&mesh, None, None, "a", &mut bytes).unwrap();
+    let package =
+        threemf2::package::ThreemfPackage::from_reader_with_memory_optimized_deserializer(Cursor::new(&bytes), true)
+            .unwrap();
+    let read = package.root.resources.object[0].get_mesh().unwrap();
+    let positions = read.vertices.vertex.iter().map(|v| [v.x.value(), v.y.value(), v.z.value()]).collect();
+    let triangles = read.triangles.triangle.iter().map(|t| [t.v1, t.v2, t.v3]).collect();
+    let from_3mf = Mesh { positions, normals, triangles };
+    for (name, mesh) in [("GLB", from_glb), ("3MF", from_3mf)] {
+        let topology = check(&mesh).unwrap_or_else(|fault| panic!("{name}: {fault:?}"));
+        assert_eq!((topology.euler, topology.components), (0, 1), "{name}");
+        let got = volume(&mesh);
+        assert!((got / wanted - 1.).abs() < 1e-6, "{name}: {got} for {wanted}");
+    }
+}
+
+#[test]
+fn an_apng_has_as_many_frames_as_it_said() {
+    let image = Image::new(4, 4, [1, 2, 3]);
+    let mut encoder = apng::Encoder::new(Vec::new(), 4, 4, 3, 0.1).unwrap();
+    encoder.frame(&image).unwrap();
+    assert!(encoder.frame(&Image::new(4, 5, [0; 3])).is_err(), "another size");
+    encoder.frame(&image).unwrap();
+    assert!(encoder.finish().is_err(), "too few");
+    let mut encoder = apng::Encoder::new(Vec::new(), 4, 4, 1, 0.1).unwrap();
+    encoder.frame(&image).unwrap();
+    assert!(encoder.frame(&image).is_err(), "too many");
 }
 
 #[test]
@@ -257,15 +339,18 @@ impl std::io::Write for Full {
 fn a_full_disk_is_an_error_wherever_it_strikes() {
     let mesh = ball(3, 1., [0.; 3]);
     let slice = svg::Slice { loops: vec![polygon(50, 1., [0.; 2])], ..Default::default() };
-    for room in [0, 1, 11, 300, 1500] {
-        assert!(glb::write(&mesh, None, "a", &mut Full(room)).is_err(), "GLB, {room} bytes");
-        assert!(threemf::write(&mesh, None, None, "a", &mut Full(room)).is_err(), "3MF, {room} bytes");
-        assert!(
-            svg::write(std::slice::from_ref(&slice), [-1.; 2], [1.; 2], "a", &mut Full(room)).is_err(),
-            "SVG, {room} bytes"
-        );
+    let full = |result: std::io::Result<()>, what: &str, room: usize| {
+        let kind = result.map_err(|error| error.kind());
+        assert_eq!(kind, Err(std::io::ErrorKind::StorageFull), "{what}, {room} bytes");
+    };
+    for room in [0, 1, 11, 40, 300, 1000] {
+        full(glb::write(&mesh, None, "a", &mut Full(room)), "GLB", room);
+        full(threemf::write(&mesh, None, None, "a", &mut Full(room)), "3MF", room);
+        full(svg::write(std::slice::from_ref(&slice), [-1.; 2], [1.; 2], "a", &mut Full(room)), "SVG", room);
     }
-    assert!(apng::write(&[Image::new(8, 8, [0; 3])], 1., &mut Full(40)).is_err());
+    for room in [0, 1, 40, 90] {
+        full(apng::write(&vec![Image::new(8, 8, [0; 3]); 2], 1., &mut Full(room)), "APNG", room);
+    }
 }
 
 #[test]

@@ -1,22 +1,29 @@
 //! Plots: what is found on a function, and that it is drawn where it belongs.
 
+use super::solids::{Ex, shape_of};
+use yont::interrupt::Interrupt;
 use yont::picture::axes::{Axis, around, number, ticks};
+use yont::picture::axes_space::behind;
 use yont::picture::contours::{Map, draw, levels};
+use yont::picture::extent::Extent;
 use yont::picture::graph::{Curve, Graph, follow, stack};
 use yont::picture::image::Image;
 use yont::picture::isolines::Field;
 use yont::picture::legend::{Legend, beside, member_colour};
 use yont::picture::palette::Palette;
 use yont::picture::plot::Window;
+use yont::picture::raycast::{Space, Style, raycast};
 use yont::picture::sheet::{Heading, SheetError, compose};
+use yont::picture::{Camera, View};
 use yont::picture::{contours, graph};
+use yont::vm::Demand;
 
 /// Where `YONT_LOOK` names a folder, the pictures of these tests are left there to be looked at.
 fn look(image: &Image, name: &str) {
     if let Ok(folder) = std::env::var("YONT_LOOK") {
         let mut bytes = Vec::new();
-        yont::export::apng::write(std::slice::from_ref(image), 1., &mut bytes).unwrap();
-        std::fs::write(format!("{folder}/{name}.png"), bytes).unwrap();
+        yont::export::apng::write(std::slice::from_ref(image), 1., &mut bytes).expect("memory is enough");
+        std::fs::write(format!("{folder}/{name}.png"), bytes).expect("the folder is there");
     }
 }
 
@@ -283,6 +290,30 @@ fn the_map_of_fig_3_has_a_bold_corner_at_the_origin() {
 }
 
 #[test]
+fn compiled_shapes_give_what_closures_give_with_any_number_of_threads() {
+    let alpha_0 = |x: Ex, y: Ex| x.clone() + y.clone() - (x.squared() + y.squared()).sqrt();
+    let plane = shape_of(|x, y, _| alpha_0(x, y), 2, Demand::Value);
+    let area = window(-2., 2.);
+    let by_threads = |count: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+        pool.install(|| Field::of(&plane, area, 301, 301, &Interrupt::default())).unwrap()
+    };
+    let (one, cost) = by_threads(1);
+    assert_eq!(one, field(area, 301, corner));
+    assert_eq!((cost.points, cost.undefined), (301 * 301, 0));
+    assert!([2, 8].into_iter().all(|count| by_threads(count) == (one.clone(), cost.clone())));
+
+    let segment = shape_of(|x, _, _| alpha_0(x.clone() - 1., 3. - x), 1, Demand::Value);
+    let (compiled, cost) = graph::of(&segment, 0., 4., 400, &Interrupt::default()).unwrap();
+    assert_eq!(compiled, curve(0., 4., |x| corner(x - 1., 3. - x)));
+    assert!(cost.points > 400);
+
+    let stopped = Interrupt::default();
+    stopped.cancel();
+    assert!(graph::of(&segment, 0., 4., 400, &stopped).is_err() && Field::of(&plane, area, 9, 9, &stopped).is_err());
+}
+
+#[test]
 fn a_group_of_sections_is_told_apart_by_its_key() {
     let sections =
         |k: usize| field(window(-2., 2.), 101, move |x, y| 0.4 * (k + 1) as f64 - (x - 0.2 * k as f64).hypot(y));
@@ -379,4 +410,46 @@ fn axes_stand_around_a_picture_pixel_for_pixel() {
     let spot = (0..image.width * image.height).find(|i| image.rgba[4 * i..4 * i + 3] == [1, 2, 3]).unwrap();
     let (column, row) = (spot % image.width - 150, spot / image.width - 100);
     assert!((1..199).all(|j| (1..299).all(|i| image.pixel(column + i, row + j) == picture.pixel(i, j))));
+}
+
+/// A solid with the axes of its box: a picture on a transparent ground is made from one on a ground of a colour of its own.
+#[test]
+fn axes_stand_behind_a_solid() {
+    let half = [2., 1.5, 1.];
+    let shape = shape_of(|x, y, z| 1. - (x / 2.).squared() - (y / 1.5).squared() - z.squared(), 3, Demand::Sign);
+    let space = Space { lo: half.map(|h: f64| -h), hi: half };
+    let names = ["x1", "x2", "x3"].map(String::from);
+    for (name, view) in [("default", View::default())]
+        .into_iter()
+        .chain(View::NAMES.map(|(name, ..)| (name, View::from_name(name).unwrap())))
+    {
+        let style = Style { size: [480, 360], supersample: 2, background: [[255, 0, 255]; 2], ..Style::default() };
+        let camera = Camera::framing(&view, &Extent::whole(space), 480. / 360.);
+        let mut picture = raycast(&shape, space, &camera, &style, &Interrupt::default()).unwrap().image;
+        for pixel in picture.rgba.as_chunks_mut::<4>().0 {
+            let ground = pixel[0].min(pixel[2]).saturating_sub(pixel[1]) > 60;
+            pixel[3] = if ground { 0 } else { 255 };
+        }
+        let image = behind(&picture, &camera, space, &names).unwrap();
+        look(&image, &format!("space-{name}"));
+        let margin = (image.width - 480) / 2;
+        for j in 0..360 {
+            for i in 0..480 {
+                let kept = image.pixel(i + margin, j + margin) == picture.pixel(i, j);
+                assert!(
+                    kept || picture.pixel(i, j)[3] == 0 || !(60..420).contains(&i) || !(60..300).contains(&j),
+                    "{name} {i} {j}"
+                );
+            }
+        }
+        // Frames, marks and numbers are dark; the ground around the picture and the faces are not.
+        let dark = |i: usize, j: usize| image.pixel(i, j)[0] < 90;
+        let around = |i: usize, j: usize| {
+            let inner = i.checked_sub(margin).zip(j.checked_sub(margin)).filter(|&(i, j)| i < 480 && j < 360);
+            inner.is_none_or(|(i, j)| picture.pixel(i, j)[3] == 0)
+        };
+        let drawn = (0..image.height).flat_map(|j| (0..image.width).map(move |i| (i, j)));
+        let drawn = drawn.filter(|&(i, j)| dark(i, j) && around(i, j)).count();
+        assert!(drawn > 300, "{name}: {drawn} dark pixels");
+    }
 }
