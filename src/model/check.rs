@@ -12,6 +12,9 @@ use super::errors;
 use super::names::{self, Names};
 use super::state::State;
 
+/// Unknown names of one input for which near ones are looked for, each among all names; the rest is told without.
+const SUGGESTED: usize = 20;
+
 /// The names that a statement would define.
 #[must_use]
 pub fn defines(statement: &Statement) -> Vec<Name> {
@@ -130,7 +133,14 @@ pub fn unknown_names<'r>(
             }
         }
     }
-    order.into_iter().map(|name| errors::unknown_name(state, name, &places[name], note, excused)).collect()
+    let told = order.into_iter().enumerate().map(|(i, name)| {
+        if i < SUGGESTED {
+            errors::unknown_name(state, name, &places[name], note, excused)
+        } else {
+            errors::not_defined(name, &places[name], note)
+        }
+    });
+    told.collect()
 }
 
 /// Calls inside a function's body, which nothing has evaluated yet.

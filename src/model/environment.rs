@@ -140,7 +140,19 @@ pub fn coordinate(name: &str) -> Option<u8> {
 #[must_use]
 pub fn is_setting(name: &str) -> bool {
     let rest = name.strip_suffix("min").or_else(|| name.strip_suffix("max")).or_else(|| name.strip_suffix("_delta"));
-    rest.is_some_and(|c| coordinate(c).is_some())
+    rest.is_some_and(|c| c.starts_with('x') && coordinate(c).is_some())
+}
+
+/// The setting that a name was probably meant to be: `x1min` for `x1_min` and `X1Min`.
+#[must_use]
+pub fn nearly_setting(name: &str) -> Option<String> {
+    if is_setting(name) {
+        return None;
+    }
+    let plain: String = name.chars().filter(|c| *c != '_').collect::<String>().to_ascii_lowercase();
+    let (c, end) = ["min", "max", "delta"].iter().find_map(|end| Some((plain.strip_suffix(end)?, *end)))?;
+    let c = Coordinate(coordinate(c)?);
+    Some(if end == "delta" { format!("{c}_delta") } else { format!("{c}{end}") })
 }
 
 /// The type that a coordinate has if nothing was declared.

@@ -46,7 +46,14 @@ pub(super) struct Input<'s> {
     systems: Vec<SystemInForce>,
     /// Turns that loops and calls have taken so far.
     turns: usize,
+    /// Files included so far.
+    included: usize,
 }
+
+/// Files within files.
+const INCLUDE_DEPTH: usize = 64;
+/// Files that one input may include.
+const INCLUDES: usize = 10_000;
 
 /// What will be told of a statement if the input is accepted.
 enum Pending {
@@ -69,12 +76,14 @@ impl<'s> Input<'s> {
             defined: FxHashMap::default(),
             systems: Vec::new(),
             turns: 0,
+            included: 0,
         }
     }
 
     /// Works the text off. Nothing has changed if the outcome is not accepted.
     pub(super) fn run(mut self, id: SourceId) -> (Outcome, Vec<super::state::Change>) {
         let mark = self.session.state.mark();
+        let failing = self.session.failing.clone();
         let parsed = syntax::parse(&self.session.sources, id, &self.session.limits, self.mode);
         self.diagnostics.extend(parsed.diagnostics);
         let mut items = Vec::new();
@@ -102,6 +111,7 @@ impl<'s> Input<'s> {
         let accepted = !self.diagnostics.iter().any(Diagnostic::is_error);
         if !accepted {
             self.session.state.take_back(&mark);
+            self.session.failing = failing;
             let outcome = self.outcome(false, Vec::new());
             return (outcome, Vec::new());
         }
@@ -130,7 +140,7 @@ impl<'s> Input<'s> {
                 left = left.saturating_sub(usize::from(d.is_error()));
                 !d.is_error() || left > 0
             });
-            self.diagnostics.push(Diagnostic::error("more-errors", format!("{} more errors", errors - limit + 1)));
+            self.diagnostics.push(Diagnostic::error("more-errors", format!("and {} more errors", errors - limit + 1)));
         }
         Outcome { accepted, diagnostics: self.diagnostics, events }
     }
@@ -172,8 +182,11 @@ impl<'s> Input<'s> {
             );
             return;
         }
-        if files.len() > 64 {
-            self.tell(Diagnostic::error("include-depth", "INCLUDEs are nested deeper than 64").at(span, ""));
+        // Files that include each other twice would be read twice to the power of their depth.
+        self.included += 1;
+        if files.len() > INCLUDE_DEPTH || self.included > INCLUDES {
+            let title = format!("INCLUDEs nested deeper than {INCLUDE_DEPTH}, or more than {INCLUDES} in all");
+            self.tell(Diagnostic::error("too-many-includes", title).at(span, ""));
             return;
         }
         let read = self.session.host.read(&path, self.session.limits.source_bytes);
@@ -258,6 +271,16 @@ impl<'s> Input<'s> {
             self.tell(told);
             self.loose.extend(said.reads);
             return;
+        }
+        if let StatementKind::Type { subject, .. } = &statement.kind
+            && super::environment::coordinate(&subject.name).is_none()
+        {
+            self.loose.push((subject.name.clone(), subject.span));
+        }
+        if let StatementKind::Define { name, parameters: None, .. } = &statement.kind
+            && let Some(setting) = super::environment::nearly_setting(&name.name)
+        {
+            self.tell(errors::nearly_setting(&name.name, &setting, name.span));
         }
         let Some(definition) = self.definition(statement, &said) else { return };
         let definition = Arc::new(definition);

@@ -133,11 +133,21 @@ fn same(a: &SystemInForce, b: &SystemInForce) -> bool {
     }
 }
 
+/// Writes the statement that sets a system, and those above that its formula reads.
 fn write_system(out: &mut String, system: &SystemInForce, sources: &SourceMap) {
-    match system {
-        SystemInForce::Plain => out.push_str("r_alpha = 0;\n"),
-        SystemInForce::Set(definition) => write_definition(out, definition, sources),
+    let mut chain = Vec::new();
+    let mut next = system;
+    while let SystemInForce::Set(definition) = next {
+        chain.push(definition);
+        if !definition.uses_system {
+            break;
+        }
+        next = &definition.system;
     }
+    if chain.last().is_none_or(|d| d.uses_system) {
+        out.push_str("r_alpha = 0;\n");
+    }
+    chain.iter().rev().for_each(|definition| write_definition(out, definition, sources));
 }
 
 fn write_definition(out: &mut String, definition: &Definition, sources: &SourceMap) {

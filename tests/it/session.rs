@@ -179,6 +179,24 @@ fn objects_know_their_axes_frames_and_levels() {
 }
 
 #[test]
+fn what_is_meant_for_the_environment_is_not_lost_in_silence() {
+    let mut s = session();
+    let outcome = s.input("script", "gob_ball = 1 - x1**2; x1_min = -2; gob_bal : G = [0, 1];", Mode::Script);
+    let found = messages(&outcome);
+    assert!(!outcome.accepted, "{found}");
+    assert!(found.contains("nearly-setting: `x1_min` bounds nothing: the setting is written `x1min`"), "{found}");
+    assert!(found.contains("unknown-name: `gob_bal`"), "{found}");
+}
+
+#[test]
+fn a_system_that_builds_on_the_one_before_is_saved_with_it() {
+    let mut s = session();
+    let script = "r_alpha = 0.5;\nr_alpha = r_alpha/2;\nv = 3 | 4;\n";
+    assert!(s.input("script", script, Mode::Script).accepted);
+    assert_eq!(s.save(), script);
+}
+
+#[test]
 fn a_circle_of_includes_is_shown() {
     let files: &[(&str, &[u8])] = &[("a.geo", b"INCLUDE \"b.geo\";"), ("b.geo", b"INCLUDE \"a.geo\";")];
     let mut s = Session::new(Arc::new(Memory::with(files)), Limits::default(), Interrupt::default());

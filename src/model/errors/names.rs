@@ -19,12 +19,7 @@ use super::count;
 /// A name that nothing defines; a note if the prompt may still be told. `places` are where it is read, the first one underlined;
 /// `excused` are names of statements that failed, which may be meant all the same.
 pub fn unknown_name(state: &State, name: &str, places: &[Span], note: bool, excused: &FxHashSet<Name>) -> Diagnostic {
-    let title = if note { format!("`{name}` is not defined yet") } else { format!("`{name}` is not defined") };
-    let mut told =
-        if note { Diagnostic::note("unknown-name", title) } else { Diagnostic::error("unknown-name", title) };
-    for (i, place) in places.iter().enumerate() {
-        told = if i == 0 { told.at(*place, "unknown name") } else { told.see(*place, "also read here") };
-    }
+    let told = not_defined(name, places, note);
     if let Some(builtin) = builtins::find(name) {
         return told.help(format!("`{}` is a built-in function: {}", builtin.name, builtin.signature()));
     }
@@ -37,6 +32,18 @@ pub fn unknown_name(state: &State, name: &str, places: &[Span], note: bool, excu
             told.help(format!("did you mean {}?", all.join(" or ")))
         }
     }
+}
+
+/// The same without a suggestion.
+pub fn not_defined(name: &str, places: &[Span], note: bool) -> Diagnostic {
+    let told = if note {
+        Diagnostic::note("unknown-name", format!("`{name}` is not defined yet"))
+    } else {
+        Diagnostic::error("unknown-name", format!("`{name}` is not defined"))
+    };
+    places.iter().enumerate().fold(told, |told, (i, place)| {
+        if i == 0 { told.at(*place, "unknown name") } else { told.see(*place, "also read here") }
+    })
 }
 
 /// The defined names that are nearest to `name`, names that nothing reads first.
@@ -245,6 +252,13 @@ pub fn system_with_parameters(name: &str, span: Span) -> Diagnostic {
         format!("`{name}` sets the system of R-functions and has no parameters"),
     )
     .at(span, "")
+}
+
+/// A name that is no setting and looks like one.
+pub fn nearly_setting(name: &str, setting: &str, span: Span) -> Diagnostic {
+    Diagnostic::warning("nearly-setting", format!("`{name}` bounds nothing: the setting is written `{setting}`"))
+        .at(span, "")
+        .help(format!("write `{setting} = ...;`"))
 }
 
 /// A name defined twice with a reader between.

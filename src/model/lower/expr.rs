@@ -16,6 +16,7 @@ impl Lower<'_> {
         if self.depth >= DEPTH {
             return Err(errors::too_deep(self.world.limits.call_depth, e.span).into());
         }
+        self.world.interrupt.tick()?;
         self.depth += 1;
         let value = self.kind(e);
         self.depth -= 1;

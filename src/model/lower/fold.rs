@@ -1,7 +1,5 @@
 //! Folds over an index or an array, derivatives, and the table of the special forms.
 
-use std::sync::Arc;
-
 use crate::builtins::{Builtin, Special};
 use crate::field::{self, Coordinate};
 use crate::number::{Algebra, Binary};
@@ -214,6 +212,3 @@ fn empty(op: FoldOp, span: Span) -> Lowered<Value> {
         _ => Err(errors::empty_fold(op, span).into()),
     }
 }
-
-#[allow(unused_imports)]
-use Arc as _;
