@@ -13,7 +13,7 @@ use super::values::{Assignment, Extent, Section, Size, angles, assignment, exten
 
 /// The whole command line.
 #[derive(Debug, Parser)]
-#[command(name = "yont", version, about, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(name = "yont", version, about, max_term_width = 100, after_help = after_help())]
 #[command(override_usage = "yont [OPTIONS] [FILE] [-o OUT]...\n       yont [OPTIONS] <COMMAND>")]
 pub struct Cli {
     /// What to do with a program when no command is named
@@ -27,15 +27,17 @@ pub struct Cli {
     pub command: Option<Command>,
 }
 
-const AFTER_HELP: &str = "\
-Without a program, `yont` is a prompt. The extension of OUT decides what is made:
-  .stl .obj .ply   the boundary as a mesh          .png   a picture
-  .nrrd            the sampled function            .gif   an animation over T
-  a name with n in braces: one file a frame, numbered from 0 with at least three digits
-  -                standard output, with --format
-
-Exit status: 0 done; 1 ran and failed (an empty object); 2 usage; 3 an error in the program;
-4 a file could not be read or written; 130 Ctrl-C.";
+/// What stands below the options; the formats come from their one list.
+fn after_help() -> String {
+    let formats = FORMATS.iter().map(|(_, extension, what, _)| format!("  .{extension:<5} {what}\n")).collect::<String>();
+    format!(
+        "Without a program, `yont` is a prompt. The extension of OUT decides what is made:\n{formats}\
+         A name with n in braces makes one file a frame, numbered from 0 with at least three digits; `-` is standard\n\
+         output, with --format.\n\n\
+         Exit status: 0 done; 1 ran and failed (an empty object); 2 usage; 3 an error in the program;\n\
+         4 a file could not be read or written; 130 Ctrl-C."
+    )
+}
 
 /// The commands.
 #[derive(Debug, Subcommand)]
