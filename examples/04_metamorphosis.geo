@@ -5,7 +5,7 @@
 
   Shows:    a whole program: geometric model, geometric types, environment; x4 as time; a volume as an object.
   Run:      yont examples/04_metamorphosis.geo -o metamorphosis.gif
-            yont examples/04_metamorphosis.geo -o frame-{n}.stl --resolution 128
+            the same with -o "frame-(n).stl" --resolution 128, n in braces, for the nine meshes
   Expected: nine frames, x4 = 0, 0.5 ... 4, each of them closed; the last is the first }
 
 r_alpha = 1.;

@@ -1,3 +1,7 @@
 //! The `yont` program: exit codes only.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    yont::cli::main(std::env::args_os(), yont::repl::start).into()
+}

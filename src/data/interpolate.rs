@@ -128,7 +128,7 @@ impl Field {
         match self.kind {
             Interpolation::Nearest => self.sample(index.map(nearest)),
             Interpolation::Trilinear => self.trilinear(index),
-            Interpolation::Tricubic => self.tensor(index).0,
+            Interpolation::Tricubic => self.tricubic(index),
         }
     }
 
@@ -138,6 +138,15 @@ impl Field {
         let row = |j: usize, k: usize| mix(self.sample([i0, j, k]), self.sample([i1, j, k]), tx);
         let plane = |k: usize| if j1 == j0 { row(j0, k) } else { mix(row(j0, k), row(j1, k), ty) };
         if k1 == k0 { plane(k0) } else { mix(plane(k0), plane(k1), tz) }
+    }
+
+    /// The value of [`Field::tensor`], to the bit.
+    fn tricubic(&self, index: [f64; 3]) -> f64 {
+        let [wx, wy, wz] = std::array::from_fn(|axis| self.weights(index[axis], self.volume.size[axis]));
+        let along =
+            |w: &Weights, get: &dyn Fn(usize) -> f64| (0..w.count).fold(0.0, |sum, i| sum + w.weight[i] * get(i));
+        let row = |j: usize, k: usize| along(&wx, &|i| self.sample([wx.first + i, wy.first + j, wz.first + k]));
+        along(&wz, &|k| along(&wy, &|j| row(j, k)))
     }
 
     /// Value and derivatives by the indices, as a sum over the samples around.

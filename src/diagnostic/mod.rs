@@ -1,5 +1,8 @@
 //! Errors, warnings and notes as data. Renderings stand beside; nothing here prints.
 
+pub mod near;
+pub mod render;
+
 use crate::source::Span;
 
 /// How grave a diagnostic is.

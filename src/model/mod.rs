@@ -1,4 +1,23 @@
-//! What a program means: definitions that depend on each other, lowered to expression graphs; sessions. Bytes come from the host.
+//! The meaning of the language: definitions that propagate, the environment, and the session that every front end works over.
+//!
+//! A definition is a formula, never a stored value; values are kept beside it and found again when something that they read changes.
 
+mod check;
+mod definition;
+pub mod environment;
+mod errors;
+mod input;
+mod lower;
+mod names;
+mod objects;
 pub mod oracle;
+mod report;
 pub mod request;
+mod session;
+mod stack;
+mod state;
+pub mod value;
+
+pub use environment::{Axis, Object, Role};
+pub use session::{Deps, Event, Outcome, Session};
+pub use value::Value;

@@ -231,6 +231,36 @@ pub fn powi<T: Float>(a: T, n: i32) -> T {
     result
 }
 
+/// [`powi`] of every number of a block, in groups of lanes, since the exponent is not known when the loop is compiled.
+#[inline(always)]
+pub fn powi_map<T: Float>(a: &[T], out: &mut [T], n: i32) {
+    const LANES: usize = 16;
+    let mut groups = a.chunks_exact(LANES);
+    let mut results = out.chunks_exact_mut(LANES);
+    for (a, out) in (&mut groups).zip(&mut results) {
+        let mut square = [T::ONE; LANES];
+        let mut result = [T::ONE; LANES];
+        for i in 0..LANES {
+            square[i] = if n < 0 { T::ONE / a[i] } else { a[i] };
+            result[i] = T::ONE.when(!a[i].undefined(), a[i]);
+        }
+        let mut rest = n.unsigned_abs();
+        while rest != 0 {
+            for i in 0..LANES {
+                if rest & 1 == 1 {
+                    result[i] = result[i] * square[i];
+                }
+                square[i] = square[i] * square[i];
+            }
+            rest >>= 1;
+        }
+        out.copy_from_slice(&result);
+    }
+    for (&a, out) in groups.remainder().iter().zip(results.into_remainder()) {
+        *out = powi(a, n);
+    }
+}
+
 /// a - b floor(a / b), as it stands.
 #[inline(always)]
 pub fn modulo<T: Float>(a: T, b: T) -> T {

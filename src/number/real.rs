@@ -36,6 +36,11 @@ impl Unary {
     /// What the longer slice has beyond the shorter stays.
     #[inline(always)]
     pub fn map<T: Float>(self, a: &[T], out: &mut [T]) {
+        let length = a.len().min(out.len());
+        let (a, out) = (&a[..length], &mut out[..length]);
+        if let Self::Powi(n) = self {
+            return float::powi_map(a, out, n);
+        }
         let mut rare = false;
         for (&a, out) in a.iter().zip(&mut *out) {
             *out = self.common(a);

@@ -103,10 +103,22 @@ impl Camera {
     /// width by height.
     #[must_use]
     pub fn framing(view: &View, points: &[[f64; 3]], aspect: f64) -> Self {
-        let axes = view.axes();
+        Self::along(view.axes(), view.projection, points, aspect)
+    }
+
+    /// A camera of parallel rays in that direction (not 0) which sees all of the points in a square picture.
+    #[must_use]
+    pub fn parallel(forward: [f64; 3], points: &[[f64; 3]]) -> Self {
+        let forward = unit(forward);
+        let side = if forward[2].abs() < 0.9 { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
+        let right = unit(cross(forward, side));
+        Self::along([right, cross(right, forward), forward], Projection::Orthographic, points, 1.0)
+    }
+
+    fn along(axes: [[f64; 3]; 3], projection: Projection, points: &[[f64; 3]], aspect: f64) -> Self {
         let corners: Vec<[f64; 3]> = points.iter().map(|&point| axes.map(|axis| dot(axis, point))).collect();
-        let framed = match view.projection {
-            Projection::Orthographic => parallel(&corners, aspect),
+        let framed = match projection {
+            Projection::Orthographic => level(&corners, aspect),
             Projection::Perspective(angle) => central(&corners, aspect, angle),
         };
         let [right, up, forward] = axes;
@@ -141,7 +153,7 @@ struct Framed {
 }
 
 /// Parallel rays: the picture's plane lies before all corners.
-fn parallel(corners: &[[f64; 3]], aspect: f64) -> Framed {
+fn level(corners: &[[f64; 3]], aspect: f64) -> Framed {
     let (lo, hi) = extent(corners);
     let height = (0.5 * (hi[1] - lo[1])).max(0.5 * (hi[0] - lo[0]) / aspect) / (1.0 - MARGIN);
     let height = if height > 0.0 { height } else { 1.0 };
@@ -180,4 +192,13 @@ fn corners(lo: [f64; 3], hi: [f64; 3]) -> [[f64; 3]; 8] {
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = dot(v, v).sqrt();
+    v.map(|c| c / length)
 }

@@ -1,7 +1,8 @@
 //! Pictures of functions: cameras, ray casting, plots, palettes, animations. Knows no language and no files.
 //!
 //! [`raycast`] shows a 3-D object in the light, [`plot`] a 2-D object as a filled picture, [`animation`] frames over a parameter.
-//! [`field`] samples one for a volume file. Each takes a compiled [`crate::vm::Shape`] and gives an [`Image`]; the same input gives the same bytes for any number of threads.
+//! [`field`] samples one for a volume file. Each takes a compiled [`crate::vm::Shape`] and gives an [`Image`]; the same input gives the
+//! same bytes for any number of threads.
 
 pub mod animation;
 pub mod axes;
@@ -21,6 +22,7 @@ pub mod raycast;
 pub mod rays;
 mod search;
 pub mod shade;
+pub mod shadow;
 pub mod sheet;
 pub mod text;
 

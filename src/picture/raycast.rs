@@ -4,8 +4,9 @@ use super::camera::{Camera, View};
 use super::extent::Extent;
 use super::image::Image;
 use super::palette::{Palette, encode, linear};
-use super::rays::{Scene, Tile, cast};
+use super::rays::{Hit, Scene, Tile, cast};
 use super::shade::{Light, Lights};
+use super::shadow::Shadows;
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::sampler::Counters;
 use crate::vm::Shape;
@@ -28,6 +29,8 @@ pub struct Style {
     pub supersample: usize,
     /// Decides the colour of the object.
     pub palette: Palette,
+    /// How dark the key light's shadows are: 0 for none (and none are computed), 1 for as dark as its light is bright.
+    pub shadow: f32,
     /// The colours at the top and at the bottom of the background.
     pub background: [[u8; 3]; 2],
 }
@@ -38,6 +41,7 @@ impl Default for Style {
             size: [800, 600],
             supersample: 2,
             palette: Palette::Plain,
+            shadow: 0.6,
             background: [[0xfb, 0xfc, 0xfd], [0xdf, 0xe4, 0xea]],
         }
     }
@@ -77,8 +81,17 @@ pub fn raycast(
     // Tiles are whole pixels.
     let tile = if fine == 3 { 6 } else { 8 };
     let scene = Scene { camera: *camera, space, rays: [width * fine, height * fine], tile };
-    let brush = Brush { lights: Lights::new(camera, style.palette.solid()), backdrop: backdrop(style), fine };
-    let (tiles, counters) = cast(shape, &scene, |tile| brush.paint(tile), interrupt)?;
+    let lights = Lights::new(camera, style.palette.solid());
+    let (shadows, mut counters) = if style.shadow > 0.0 {
+        let side = width.max(height).clamp(256, 2048);
+        let (shadows, cost) = Shadows::cast(shape, space, lights.key(), side, interrupt)?;
+        (Some(shadows), cost)
+    } else {
+        (None, Counters::default())
+    };
+    let brush = Brush { scene, lights, shadows, shadow: style.shadow.min(1.0), backdrop: backdrop(style), fine };
+    let (tiles, cost) = cast(shape, &scene, |tile| brush.paint(tile), interrupt)?;
+    counters.add(cost);
     let mut image = Image::new(width, height, [0; 3]);
     let mut hits = 0;
     for (from, size, (pixels, met)) in tiles {
@@ -108,7 +121,10 @@ fn backdrop(style: &Style) -> Vec<Light> {
 
 /// Turns hits into pixels.
 struct Brush {
+    scene: Scene,
     lights: Lights,
+    shadows: Option<Shadows>,
+    shadow: f32,
     backdrop: Vec<Light>,
     fine: usize,
 }
@@ -135,11 +151,22 @@ impl Brush {
         let fine = self.fine;
         let mut sum = [0.0_f32; 3];
         for y in j * fine..(j + 1) * fine {
-            for hit in &tile.hits[y * tile.size[0] + i * fine..][..fine] {
-                let light = hit.as_ref().map_or(behind, |hit| self.lights.shade(hit));
+            for x in i * fine..(i + 1) * fine {
+                let hit = tile.hits[y * tile.size[0] + x];
+                let light = hit.map_or(behind, |hit| self.light(&hit, tile.from[0] + x, tile.from[1] + y));
                 (0..3).for_each(|k| sum[k] += light[k].min(1.0));
             }
         }
         sum.map(|light| encode(light / (fine * fine) as f32))
+    }
+
+    /// The light of a hit of ray (i, j).
+    fn light(&self, hit: &Hit, i: usize, j: usize) -> Light {
+        self.lights.shade(hit, |facing| {
+            let Some(shadows) = &self.shadows else { return 1.0 };
+            let (start, direction) = self.scene.ray(i, j);
+            let point = std::array::from_fn(|k| start[k] + hit.depth * direction[k]);
+            1.0 - self.shadow * (1.0 - shadows.lit(point, hit.normal, facing))
+        })
     }
 }

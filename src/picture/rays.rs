@@ -27,6 +27,15 @@ pub struct Scene {
     pub tile: usize,
 }
 
+impl Scene {
+    /// The start and the change by depth of ray (i, j).
+    #[must_use]
+    pub fn ray(&self, i: usize, j: usize) -> ([f64; 3], [f64; 3]) {
+        let [columns, rows] = self.rays;
+        self.camera.ray(2.0 * ((i as f64 + 0.5) / columns as f64) - 1.0, 1.0 - 2.0 * ((j as f64 + 0.5) / rows as f64))
+    }
+}
+
 /// Where a ray meets the object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
@@ -107,10 +116,7 @@ impl Frustum {
     }
 
     fn ray(&self, i: usize, j: usize) -> Ray {
-        let [columns, rows] = self.scene.rays;
-        let u = 2.0 * ((i as f64 + 0.5) / columns as f64) - 1.0;
-        let v = 1.0 - 2.0 * ((j as f64 + 0.5) / rows as f64);
-        let (start, direction) = self.scene.camera.ray(u, v);
+        let (start, direction) = self.scene.ray(i, j);
         Ray::new(start, direction, self.scene.space)
     }
 }

@@ -44,12 +44,20 @@ impl Lights {
         Self { key, fill: towards(0.85, 0.1, 0.5), halfway, solid, cut }
     }
 
-    /// The light that leaves the object at a hit.
+    /// The direction to the key light, a unit vector.
     #[must_use]
-    pub fn shade(&self, hit: &Hit) -> Light {
+    pub fn key(&self) -> [f64; 3] {
+        self.key
+    }
+
+    /// The light that leaves the object at a hit that the key light reaches by `lit` (0 to 1; asked with the cosine of its angle where
+    /// it shines on the boundary's front).
+    #[must_use]
+    pub fn shade(&self, hit: &Hit, lit: impl FnOnce(f64) -> f32) -> Light {
         let n = hit.normal;
-        let facing = |light: [f64; 3]| dot(n, light).max(0.0) as f32;
-        let (key, fill) = (facing(self.key), facing(self.fill));
+        let (facing, fill) = (dot(n, self.key), dot(n, self.fill).max(0.0) as f32);
+        let lit = if facing > 0.0 { lit(facing) } else { 0.0 };
+        let key = lit * facing.max(0.0) as f32;
         let sky = (0.5 + 0.5 * n[2]) as f32;
         let gleam =
             if key > 0.0 { GLEAM * libm::pow(dot(n, self.halfway).max(0.0), GLEAM_EXPONENT) as f32 } else { 0.0 };

@@ -1,1 +1,269 @@
-//! The prompt. Computes nothing.
+//! The prompt: reads inputs, gives them to the session, shows what comes back. Computes nothing.
+
+pub mod commands;
+pub mod helper;
+pub mod history;
+pub mod look;
+
+use std::io::{BufRead, IsTerminal, Read};
+use std::path::Path;
+
+use rustyline::error::ReadlineError;
+use rustyline::history::MemHistory;
+use rustyline::{ColorMode, Config, Editor};
+
+use crate::cli::Prompt;
+use crate::cli::arguments::Making;
+use crate::cli::console::Console;
+use crate::cli::engine::Signals;
+use crate::cli::run::tell;
+use crate::cli::sample::digits;
+use crate::cli::status::Status;
+use crate::host::{FileError, Reason, reason, state_folder};
+use crate::limits::Limits;
+use crate::model::{Event, Session};
+use crate::syntax::Mode;
+use crate::syntax::scan::Scanner;
+
+use commands::Flow;
+use helper::{Assistant, is_incomplete};
+use history::{HISTORY, Lost, Memory};
+
+/// One prompt and what it knows.
+#[derive(Debug)]
+pub struct Repl {
+    session: Session,
+    console: Console,
+    signals: Signals,
+    making: Making,
+    memory: Memory,
+    lost: Option<Lost>,
+    inputs: usize,
+    /// The last value, as an expression: what `_` stands for.
+    last: Option<String>,
+}
+
+/// Runs the prompt until the user leaves, or, without a terminal, until the input ends.
+pub fn start(prompt: Prompt) -> Status {
+    let terminal = std::io::stdin().is_terminal();
+    let memory = Memory::in_folder(if terminal { state_folder() } else { None });
+    let Prompt { session, console, signals, making, .. } = prompt;
+    let repl = Repl { session, console, signals, making, memory, lost: None, inputs: 0, last: None };
+    if terminal { repl.converse() } else { repl.listen() }
+}
+
+impl Repl {
+    /// With a terminal: a banner, a prompt, and nothing that fails ends it.
+    fn converse(mut self) -> Status {
+        self.signals.at_prompt();
+        self.console.note(&format!("Yont {}. `:help` for help, Ctrl-D to leave.", env!("CARGO_PKG_VERSION")));
+        self.lost = self.memory.lost();
+        if let Some(lost) = &self.lost {
+            let count = lost.inputs.len();
+            self.console.note(&format!("A session ended without being left; `:recover` runs its {count} inputs."));
+        }
+        let mut editor = match self.editor() {
+            Ok(editor) => editor,
+            Err(error) => {
+                self.console.note(&format!("no line editing: {error}"));
+                return self.listen();
+            }
+        };
+        loop {
+            match editor.readline("yont> ") {
+                Ok(line) if line.trim().is_empty() => {}
+                Ok(line) => {
+                    // The editor's own history only refuses what is already there.
+                    let _ = editor.add_history_entry(line.as_str());
+                    let typed = self.memory.typed(&line);
+                    self.remember(typed);
+                    if self.take(&line) == Flow::Leave {
+                        break;
+                    }
+                    if let Some(assistant) = editor.helper_mut() {
+                        assistant.names = self.names();
+                    }
+                }
+                Err(ReadlineError::Interrupted) => {}
+                Err(ReadlineError::Eof) => break,
+                Err(error) => {
+                    self.console.note(&format!("the terminal is gone: {error}"));
+                    return Status::File;
+                }
+            }
+        }
+        self.memory.left();
+        Status::Done
+    }
+
+    fn editor(&self) -> rustyline::Result<Editor<Assistant, MemHistory>> {
+        let colour = self.console.colour();
+        let mode = if colour { ColorMode::Enabled } else { ColorMode::Disabled };
+        let config = Config::builder().max_history_size(HISTORY)?.color_mode(mode).build();
+        let history = MemHistory::with_config(&config);
+        let mut editor = Editor::with_history(config, history)?;
+        editor.set_helper(Some(Assistant { names: self.names(), colour }));
+        for input in self.memory.history() {
+            // The editor's own history only refuses what is already there.
+            let _ = editor.add_history_entry(input);
+        }
+        Ok(editor)
+    }
+
+    /// Without a terminal: no banner and no prompt; the first error decides the status.
+    fn listen(mut self) -> Status {
+        let mut status = Status::Done;
+        let mut pending = String::new();
+        let mut again = 0;
+        let limit = Limits::default().source_bytes;
+        let mut input = std::io::stdin().lock().take(limit as u64 + 1);
+        loop {
+            let line = match next_line(&mut input) {
+                Ok(line) => line,
+                Err(reason) => {
+                    let error = FileError::reading(Path::new("standard input"), reason);
+                    return status.or(self.console.file_error(&error));
+                }
+            };
+            let ended = line.is_none();
+            pending.push_str(&line.unwrap_or_default());
+            if pending.len() > limit {
+                let error = FileError::reading(Path::new("standard input"), Reason::TooLarge(limit));
+                return status.or(self.console.file_error(&error));
+            }
+            if ended || (pending.len() >= again && !is_incomplete(&pending)) {
+                let flow = self.take(&std::mem::take(&mut pending));
+                match flow {
+                    Flow::Leave => return status,
+                    Flow::Failed(Status::Cancelled) => return Status::Cancelled,
+                    Flow::Failed(failed) => status = status.or(failed),
+                    Flow::Go | Flow::Changed => {}
+                }
+            }
+            if ended {
+                return status;
+            }
+            // An input that stays open for long is looked at again only when it has grown by a part of itself: else a
+            // pasted file with an open comment would be parsed once for each of its lines.
+            again = if pending.is_empty() { 0 } else { pending.len() + pending.len() / 256 };
+        }
+    }
+
+    /// One input: a command, a question, or a piece of program.
+    fn take(&mut self, input: &str) -> Flow {
+        self.signals.interrupt.reset();
+        let trimmed = input.trim();
+        let flow = match question(trimmed) {
+            _ if trimmed.is_empty() => return Flow::Go,
+            _ if trimmed.starts_with(':') => commands::run(self, trimmed),
+            Some((name, false)) => commands::doc(self, name),
+            Some((name, true)) => commands::definition(self, name),
+            None => {
+                self.inputs += 1;
+                let name = format!("<input {}>", self.inputs);
+                self.feed(&name, input, Mode::Prompt)
+            }
+        };
+        if flow == Flow::Changed {
+            let kept = self.memory.accepted(input);
+            self.remember(kept);
+        }
+        flow
+    }
+
+    fn feed(&mut self, name: &str, text: &str, mode: Mode) -> Flow {
+        let text = &self.with_last(text);
+        let outcome = self.session.input(name, text, mode);
+        if outcome.accepted
+            && let Some(Event::Value { text: shown, number }) = outcome.events.last()
+        {
+            self.last = Some(last_value(text, shown, *number));
+        }
+        let status = self.console.report(self.session.sources(), &outcome.diagnostics);
+        match tell(&self.console, &outcome.events, false) {
+            Ok(_) if outcome.accepted => Flow::Changed,
+            Ok(_) => Flow::Failed(status),
+            Err(Status::Done) => Flow::Leave,
+            Err(failed) => Flow::Failed(failed),
+        }
+    }
+
+    /// The text with each `_` replaced by the last value.
+    fn with_last(&self, text: &str) -> String {
+        let Some(last) = &self.last else { return text.to_owned() };
+        let (mut result, mut end) = (String::new(), 0);
+        for token in Scanner::new(text, 0, text.len()).filter(|token| token.text(text) == "_") {
+            result += &text[end..token.start];
+            result += last;
+            end = token.end;
+        }
+        result + &text[end..]
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.session.names()
+    }
+
+    /// A disk that keeps no history is told of once; the prompt goes on.
+    fn remember(&mut self, kept: Result<(), FileError>) {
+        if let Err(error) = kept {
+            self.console.note(&format!("{error}; this session keeps no history"));
+            self.memory = Memory::default();
+        }
+    }
+
+    fn show(&self, text: &str) -> Flow {
+        self.ended(self.console.print(text).map(|()| Status::Done))
+    }
+
+    fn told(&self, text: &str) -> Flow {
+        self.console.note(text);
+        Flow::Go
+    }
+
+    fn changed(&self, text: &str) -> Flow {
+        self.console.note(text);
+        Flow::Changed
+    }
+
+    fn refuse(&self, words: &str) -> Flow {
+        Flow::Failed(self.console.refuse(words))
+    }
+
+    fn ended(&self, result: Result<Status, Status>) -> Flow {
+        match result {
+            Ok(Status::Done) => Flow::Go,
+            // Nobody reads standard output any more.
+            Err(Status::Done) => Flow::Leave,
+            Ok(failed) | Err(failed) => Flow::Failed(failed),
+        }
+    }
+}
+
+/// A value as an expression: a number by its digits, anything else by what was typed, which means the same again.
+fn last_value(typed: &str, shown: &str, number: Option<f64>) -> String {
+    let single = typed.trim().trim_end_matches(';');
+    match number {
+        Some(number) if number.is_finite() => format!("({})", digits(number)),
+        _ if single.contains(';') => format!("({shown})"),
+        _ => format!("({single})"),
+    }
+}
+
+/// A line with its end, as text; nothing at the end of the input.
+fn next_line(input: &mut impl BufRead) -> Result<Option<String>, Reason> {
+    let mut bytes = Vec::new();
+    let count = input.read_until(b'\n', &mut bytes).map_err(|error| reason(&error))?;
+    let text = String::from_utf8(bytes).map_err(|e| Reason::NotText(e.utf8_error().valid_up_to()))?;
+    Ok((count > 0).then_some(text))
+}
+
+/// `NAME?` and `NAME??`: the name, and whether its definition is asked for.
+fn question(input: &str) -> Option<(&str, bool)> {
+    let (name, whole) = match input.strip_suffix("??") {
+        Some(name) => (name, true),
+        None => (input.strip_suffix('?')?, false),
+    };
+    let name = name.trim();
+    (!name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_')).then_some((name, whole))
+}

@@ -185,7 +185,14 @@ struct Walker<'a, L> {
 
 impl<'a, L: Lattice> Walker<'a, L> {
     fn new(lattice: &'a L, shape: &'a Shape, interrupt: &'a Interrupt) -> Self {
-        Self { lattice, shape, interrupt, levels: Vec::new(), sampler: Sampler::new(shape), boxes: 0 }
+        Self {
+            lattice,
+            shape,
+            interrupt,
+            levels: Vec::new(),
+            sampler: Sampler::new(shape).heeding(interrupt),
+            boxes: 0,
+        }
     }
 
     fn take_counters(&mut self) -> Counters {
@@ -212,6 +219,7 @@ impl<'a, L: Lattice> Walker<'a, L> {
         if is_leaf || !visitor.wants(block) {
             if is_leaf && visitor.wants(block) {
                 visitor.leaf(block, program, &mut self.sampler);
+                self.interrupt.tick()?;
             }
             self.interrupt.advance(block.points());
             return Ok(());

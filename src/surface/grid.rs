@@ -149,8 +149,14 @@ impl Lattice for Grid {
         [LEAF; 3]
     }
 
+    /// Tasks wait with their programs, so there must not be too many of them: at most 20 along a side.
     fn task(&self) -> [usize; 3] {
-        [LEAF * 4; 3]
+        let longest = self.counts().into_iter().fold(0, usize::max);
+        let mut side = LEAF * 4;
+        while side * 20 < longest {
+            side *= 4;
+        }
+        [side; 3]
     }
 
     /// Reaches to the next sample point beyond the block on each axis, so that a decided block has no crossed edge or cell.

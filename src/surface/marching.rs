@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::boxes::Lattice;
 use super::brick::{Brick, Bricks, Leaf, bits};
-use super::cap;
+use super::cap::{Caps, close};
 use super::grid::{Grid, LEAF};
 use super::mesh::{Mesh, cross, minus, unit};
 use super::sampler::{Counters, Sampler};
@@ -86,7 +86,7 @@ pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
     let samples = grid.counts().iter().map(|&n| n as u64).product();
     let mut report = Report { counters: std::mem::take(&mut bricks.counters), samples, cut: [[false; 2]; 3] };
     let mut triangles = join(&bricks, interrupt)?;
-    let caps = cap::close(&bricks, interrupt)?.ok_or(SurfaceError::Memory(limits.memory_bytes))?;
+    let caps = close(&bricks, interrupt)?.ok_or(SurfaceError::Memory(limits.memory_bytes))?;
     let uncapped = bricks.positions.len();
     let mut mesh = Mesh {
         positions: std::mem::take(&mut bricks.positions),
@@ -95,8 +95,9 @@ pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
     };
     for face in &caps.faces {
         triangles.extend_from_slice(&face.triangles);
-        report.cut[face.axis][face.side] = goes_on(shape, &caps, &face.points, &mut report.counters);
+        report.cut[face.axis][face.side] = goes_on(shape, &caps, &face.points, &mut report.counters, interrupt);
     }
+    interrupt.tick()?;
     mesh.positions.extend_from_slice(&caps.positions);
     mesh.normals.extend_from_slice(&caps.normals);
     mesh.triangles = triangles;
@@ -198,9 +199,9 @@ impl<'a> Neighbourhood<'a> {
 }
 
 /// Whether the object goes on beyond a face: whether the function is above zero at one of the inside points in it.
-fn goes_on(shape: &Shape, caps: &cap::Caps, points: &[u32], counters: &mut Counters) -> bool {
+fn goes_on(shape: &Shape, caps: &Caps, points: &[u32], counters: &mut Counters, interrupt: &Interrupt) -> bool {
     const AT_ONCE: usize = 128;
-    let mut sampler = Sampler::new(shape);
+    let mut sampler = Sampler::new(shape).heeding(interrupt);
     let mut values = [0.0; AT_ONCE];
     let found = points.chunks(AT_ONCE).any(|chunk| {
         let columns: [Vec<f64>; 3] =

@@ -102,7 +102,7 @@ impl Crossing {
         let (lo, hi) = (self.start[self.axis], self.end);
         let smallest = f64::from(f32::from_bits(1));
         let unit = (lo.abs().max(hi.abs()) * f64::from(f32::EPSILON)).max(smallest);
-        let margin = (MARGIN_UNITS * unit / (hi - lo)).max(MARGIN).min(0.25);
+        let margin = (MARGIN_UNITS * unit / (hi - lo)).clamp(MARGIN, 0.25);
         self.point(t.clamp(margin, 1.0 - margin))
     }
 }

@@ -1,5 +1,6 @@
 //! One thread's means to evaluate a shape at points of its space: fills in the inputs that do not move, and counts what was evaluated.
 
+use crate::interrupt::Interrupt;
 use crate::number::Interval;
 use crate::vm::block::Points;
 use crate::vm::gradient::Gradients;
@@ -28,6 +29,18 @@ impl Counters {
             self.example = other.example;
         }
     }
+
+    fn count(&mut self, at: &[&[f64]], values: &[f64]) {
+        self.points += values.len() as u64;
+        let undefined = values.iter().filter(|v| v.is_nan()).count();
+        if undefined > 0 {
+            self.undefined += undefined as u64;
+            if self.example.is_none() {
+                let first = values.iter().position(|v| v.is_nan());
+                self.example = first.map(|i| at.iter().map(|axis| axis[i]).collect());
+            }
+        }
+    }
 }
 
 /// Evaluates programs of one [`Shape`] (its own and those specialised from it) at points of the space. Allocates only while it warms up.
@@ -37,6 +50,12 @@ pub struct Sampler {
     points: Points<f64>,
     gradients: Gradients,
     counters: Counters,
+    interrupt: Interrupt,
+}
+
+/// Points handed to a program at once: so few operations in all that a request to stop is heard within some hundredths of a second.
+fn at_once(program: &Program) -> usize {
+    if program.len() > 50_000 { 128 } else { 1024 }
 }
 
 impl Sampler {
@@ -44,6 +63,7 @@ impl Sampler {
     #[must_use]
     pub fn new(shape: &Shape) -> Self {
         Self {
+            interrupt: Interrupt::default(),
             dimension: shape.dimension,
             fixed: shape.fixed.iter().map(|&value| (value, Vec::new())).collect(),
             points: Points::new(),
@@ -52,15 +72,30 @@ impl Sampler {
         }
     }
 
+    /// The same, but once the interrupt is set it evaluates no more: everything is undefined then, and whoever asked must look at the
+    /// interrupt before the values are used.
+    #[must_use]
+    pub fn heeding(self, interrupt: &Interrupt) -> Self {
+        Self { interrupt: interrupt.clone(), ..self }
+    }
+
     /// The values at points: one slice of equal length per coordinate of the space, and `out` as long.
     ///
     /// # Panics
     /// If the lengths differ.
     pub fn values(&mut self, program: &Program, at: &[&[f64]], out: &mut [f64]) {
-        let mut slices = [&[][..]; 16];
-        let slices = inputs(&mut self.fixed, self.dimension, at, out.len(), &mut slices);
-        self.points.eval(program, slices, out);
-        self.count(at, out);
+        let step = at_once(program);
+        for (i, out) in out.chunks_mut(step).enumerate() {
+            let (at, count) = part(at, i * step, out.len());
+            if self.interrupt.is_cancelled() {
+                out.fill(f64::NAN);
+                continue;
+            }
+            let mut slices = [&[][..]; 16];
+            let slices = inputs(&mut self.fixed, &at[..self.dimension], count, &mut slices);
+            self.points.eval(program, slices, out);
+            self.counters.count(&at[..self.dimension], out);
+        }
     }
 
     /// The values and, by each coordinate of the space, the slopes at points.
@@ -68,42 +103,45 @@ impl Sampler {
     /// # Panics
     /// If the lengths differ.
     pub fn slopes(&mut self, program: &Program, at: &[&[f64]], out: &mut [f64], slopes: &mut [&mut [f64]]) {
-        let mut slices = [&[][..]; 16];
-        let slices = inputs(&mut self.fixed, self.dimension, at, out.len(), &mut slices);
-        self.gradients.eval(program, slices, &[0, 1, 2][..self.dimension], out, slopes);
-        self.count(at, out);
+        let step = at_once(program);
+        for (i, out) in out.chunks_mut(step).enumerate() {
+            let (at, count) = part(at, i * step, out.len());
+            if self.interrupt.is_cancelled() {
+                out.fill(f64::NAN);
+                continue;
+            }
+            let mut slices = [&[][..]; 16];
+            let slices = inputs(&mut self.fixed, &at[..self.dimension], count, &mut slices);
+            let mut rest = slopes.iter_mut().map(|slope| &mut slope[i * step..i * step + count]);
+            let mut parts: [&mut [f64]; 3] = std::array::from_fn(|_| rest.next().unwrap_or_default());
+            let by = &[0, 1, 2][..self.dimension];
+            self.gradients.eval(program, slices, by, out, &mut parts[..self.dimension]);
+            self.counters.count(&at[..self.dimension], out);
+        }
     }
 
     /// What was counted since the last call.
     pub fn take_counters(&mut self) -> Counters {
         std::mem::take(&mut self.counters)
     }
+}
 
-    fn count(&mut self, at: &[&[f64]], values: &[f64]) {
-        self.counters.points += values.len() as u64;
-        let undefined = values.iter().filter(|v| v.is_nan()).count();
-        if undefined > 0 {
-            self.counters.undefined += undefined as u64;
-            if self.counters.example.is_none() {
-                let first = values.iter().position(|v| v.is_nan());
-                self.counters.example = first.map(|i| at.iter().map(|axis| axis[i]).collect());
-            }
-        }
-    }
+/// The coordinates of `count` points from `start` on, and that count; at most three coordinates.
+fn part<'a>(at: &[&'a [f64]], start: usize, count: usize) -> ([&'a [f64]; 3], usize) {
+    let mut slices = at.iter().map(|axis| &axis[start..start + count]);
+    (std::array::from_fn(|_| slices.next().unwrap_or_default()), count)
 }
 
 /// The slices of all inputs of a program: the moving ones from `at`, the fixed ones as constant columns of length `count`.
 fn inputs<'s, 'a: 's>(
     fixed: &'a mut [(f64, Vec<f64>)],
-    dimension: usize,
     at: &[&'a [f64]],
     count: usize,
     slices: &'s mut [&'a [f64]; 16],
 ) -> &'s [&'a [f64]] {
-    assert_eq!(at.len(), dimension, "one slice per coordinate of the space");
-    let total = dimension + fixed.len();
-    slices[..dimension].copy_from_slice(at);
-    for (slice, (value, column)) in slices[dimension..].iter_mut().zip(fixed) {
+    let total = at.len() + fixed.len();
+    slices[..at.len()].copy_from_slice(at);
+    for (slice, (value, column)) in slices[at.len()..].iter_mut().zip(fixed) {
         if column.len() < count {
             column.resize(count, *value);
         }

@@ -53,6 +53,21 @@ pub enum ChainOp {
     Div,
 }
 
+impl ChainOp {
+    /// The level of language.md section 4: operators of one level share a chain; a larger number binds tighter.
+    #[must_use]
+    pub fn level(self) -> u8 {
+        match self {
+            Self::Or => 2,
+            Self::And => 3,
+            Self::Union | Self::Subtract => 6,
+            Self::Intersect | Self::Product => 7,
+            Self::Add | Self::Sub => 8,
+            Self::Mul | Self::Div => 9,
+        }
+    }
+}
+
 /// Comparisons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CompareOp {
@@ -103,6 +118,7 @@ pub enum FoldOp {
 }
 
 /// The kinds of expression.
+#[expect(missing_docs, reason = "the form above each variant names its parts")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExprKind {
     /// `1.5e-3`
@@ -231,6 +247,7 @@ pub struct Statement {
 }
 
 /// The kinds of statement.
+#[expect(missing_docs, reason = "the form above each variant names its parts")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum StatementKind {
     /// `name = e`, `name(p, q) = e`, `r1 = 4 IN [1, 8] STEP 0.5`

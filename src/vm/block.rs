@@ -85,6 +85,12 @@ impl Kind for Doubles {
     fn binary(op: Binary, a: f64, b: f64) -> f64 {
         op.real(a, b)
     }
+    /// Rare arguments are looked for by the block, not by the lane.
+    #[inline(always)]
+    fn unary_block(op: Unary, a: &Self::Block, out: &mut Self::Block, lanes: usize) {
+        let lanes = lanes.min(Self::LANES);
+        op.map(&a.0[..lanes], &mut out.0[..lanes]);
+    }
     #[inline(always)]
     fn ternary(op: Ternary, a: f64, b: f64, c: f64) -> f64 {
         op.real(a, b, c)
@@ -123,6 +129,12 @@ impl Kind for Singles {
     #[inline(always)]
     fn binary(op: Binary, a: f32, b: f32) -> f32 {
         op.single(a, b)
+    }
+    /// Rare arguments are looked for by the block, not by the lane.
+    #[inline(always)]
+    fn unary_block(op: Unary, a: &Self::Block, out: &mut Self::Block, lanes: usize) {
+        let lanes = lanes.min(Self::LANES);
+        op.map(&a.0[..lanes], &mut out.0[..lanes]);
     }
     #[inline(always)]
     fn ternary(op: Ternary, a: f32, b: f32, c: f32) -> f32 {

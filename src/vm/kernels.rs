@@ -27,6 +27,15 @@ pub(crate) trait Kind {
     fn unary(op: Unary, a: Self::Item) -> Self::Item;
     fn binary(op: Binary, a: Self::Item, b: Self::Item) -> Self::Item;
     fn ternary(op: Ternary, a: Self::Item, b: Self::Item, c: Self::Item) -> Self::Item;
+
+    /// An operation on the first lanes of a block.
+    #[inline(always)]
+    fn unary_block(op: Unary, a: &Self::Block, out: &mut Self::Block, lanes: usize) {
+        for i in 0..lanes.min(Self::LANES) {
+            Self::set(out, i, Self::unary(op, Self::get(a, i)));
+        }
+    }
+
     fn leaf(leaf: &dyn Leaf, arguments: &[Self::Item]) -> Self::Item;
 
     /// Runs a program on the first `lanes` lanes of the input blocks, with the best instructions that there are.
@@ -160,27 +169,20 @@ macro_rules! apart {
 
 #[inline(always)]
 fn unary<K: Kind>(op: Unary, a: &K::Block, out: &mut K::Block, lanes: usize) {
-    apart!(
-        op,
-        Unary [
-            Neg Abs Sqrt Cbrt Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Asinh Acosh Atanh
-            Floor Ceil Round Sign Not
-        ],
-        Unary::Powi(n) => power::<K>(n, a, out, lanes);
-        out, lanes, i => K::unary(THE, K::get(a, i))
-    );
-}
-
-/// Small powers have a loop each, so that the multiplications stand in it in a row.
-#[inline(always)]
-fn power<K: Kind>(n: i32, a: &K::Block, out: &mut K::Block, lanes: usize) {
-    match n {
-        2 => each!(out, lanes, i => K::unary(Unary::Powi(2), K::get(a, i))),
-        3 => each!(out, lanes, i => K::unary(Unary::Powi(3), K::get(a, i))),
-        4 => each!(out, lanes, i => K::unary(Unary::Powi(4), K::get(a, i))),
-        -1 => each!(out, lanes, i => K::unary(Unary::Powi(-1), K::get(a, i))),
-        _ => each!(out, lanes, i => K::unary(Unary::Powi(n), K::get(a, i))),
+    /// One call for each of the operations listed, so that each is a constant within its loop.
+    macro_rules! apart {
+        ($($name:ident)*; $($power:literal)*) => {
+            match op {
+                $(Unary::$name => K::unary_block(Unary::$name, a, out, lanes),)*
+                $(Unary::Powi($power) => K::unary_block(Unary::Powi($power), a, out, lanes),)*
+                Unary::Powi(n) => K::unary_block(Unary::Powi(n), a, out, lanes),
+            }
+        };
     }
+    apart!(
+        Neg Abs Sqrt Cbrt Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Asinh Acosh Atanh
+        Floor Ceil Round Sign Not; 2 3 4 -1
+    );
 }
 
 #[inline(always)]
@@ -234,4 +236,42 @@ fn join<K: Kind>(op: Ternary, a: &K::Block, b: &K::Block, number: f64, out: &mut
         Ternary::Select => debug_assert!(false, "a condition has no parameter");
         out, lanes, i => K::ternary(THE, K::get(a, i), K::get(b, i), c)
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::block::{Doubles, Points};
+    use super::{Kind, Store};
+    use crate::field::{Coordinate, Graph};
+    use crate::limits::Limits;
+    use crate::number::{Algebra, Binary, Unary};
+    use crate::vm::{Demand, Program};
+
+    /// Where the blocks of a store lie, sorted: they change places, and nothing else.
+    fn places<K: Kind>(store: &Store<K>) -> Vec<*const K::Block> {
+        let mut all: Vec<*const K::Block> = store.slots.iter().chain([&store.spare]).map(|b| &raw const **b).collect();
+        all.sort_unstable();
+        all
+    }
+
+    #[test]
+    fn a_warm_store_allocates_nothing() {
+        let mut graph = Graph::new();
+        let x = graph.coordinate(Coordinate(1));
+        let sine = graph.unary(Unary::Sin, x);
+        let root = graph.binary(Binary::Mul, sine, x);
+        let program = Program::compile(&graph, root, &[Coordinate(1)], Demand::Value, &Limits::default())
+            .expect("two operations");
+        let mut store = Store::<Doubles>::new();
+        store.reserve(&program);
+        let warm = places(&store);
+        for _ in 0..5 {
+            store.reserve(&program);
+            Doubles::run(&program, &mut store, 128, &mut ());
+        }
+        assert_eq!(places(&store), warm);
+        let mut out = [0.0; 300];
+        Points::<f64>::new().eval(&program, &[&[0.5; 300]], &mut out);
+        assert!(out.iter().all(|v| *v == 0.5 * Unary::Sin.real(0.5)));
+    }
 }

@@ -2,6 +2,7 @@
 //! language nor files.
 
 pub mod block;
+mod choice;
 pub mod compile;
 pub mod gradient;
 pub mod interval;

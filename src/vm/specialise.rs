@@ -1,7 +1,7 @@
 //! Shortens a program for one box, by the choices that its intervals left: copies what is still read, renumbered. Computes nothing, and
 //! allocates nothing but the new program.
 
-use super::interval::Choice;
+use super::choice::Choice;
 use super::program::{Op, Program, Value};
 use super::slots::SlotScratch;
 use crate::number::Ternary;

@@ -1,1 +1,228 @@
-//! Golden texts of messages.
+//! Golden texts of messages: of each kind of syntax error, in each rendering; and near names.
+
+use expect_test::{expect, expect_file};
+use yont::diagnostic::near::{Candidate, suggest};
+use yont::diagnostic::render::{Colour, human, json, short};
+use yont::diagnostic::{Category, Diagnostic};
+use yont::limits::Limits;
+use yont::source::{SourceMap, Span};
+use yont::syntax::{Mode, parse};
+
+/// Each wrong program of `syntax.txt` (set apart by lines of `===`) with the messages that it gets. The file holds the
+/// programs and what is said of them; `UPDATE_EXPECT=1` writes the messages anew.
+#[test]
+fn each_kind_of_syntax_error_leads_to_its_mending() {
+    let golden = include_str!("diagnostics/syntax.txt");
+    let mut found = String::new();
+    for part in golden.split("=== ").skip(1) {
+        let (name, rest) = part.split_once('\n').unwrap();
+        let program = rest.split("--- messages\n").next().unwrap();
+        let mut sources = SourceMap::default();
+        let id = sources.add("script", program.trim_end_matches('\n'));
+        let parsed = parse(&sources, id, &Limits::default(), Mode::Script);
+        found += &format!("=== {name}\n{program}--- messages\n");
+        for diagnostic in &parsed.diagnostics {
+            assert!(!diagnostic.help.is_empty(), "{name}: a message must say what to do: {diagnostic:?}");
+            assert!(diagnostic.labels.iter().any(|l| l.primary), "{name}: a message must have a place");
+            found += &human(diagnostic, &sources, Colour::Plain);
+        }
+        assert!(!parsed.diagnostics.is_empty(), "{name}: nothing was said");
+    }
+    expect_file!["diagnostics/syntax.txt"].assert_eq(&found);
+}
+
+/// The figure as it was printed: each of its errors of syntax, and nothing else, is told at its place.
+#[test]
+fn the_figure_as_printed() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/models/as-printed.txt");
+    let Ok(text) = std::fs::read_to_string(path) else {
+        eprintln!("SKIPPED: {path} is missing");
+        return;
+    };
+    let mut sources = SourceMap::default();
+    let id = sources.add("as-printed.txt", text);
+    let parsed = parse(&sources, id, &Limits::default(), Mode::Script);
+    let lines: Vec<_> =
+        parsed.diagnostics.iter().map(|d| short(d, &sources) + "\n  help: " + &d.help.join("; ")).collect();
+    expect![[r#"
+        as-printed.txt:5:12: error[missing-semicolon]: a `;` is missing at the end of this statement
+          help: write `;` before `pob_block_3D`
+        as-printed.txt:14:41: error[stray-bracket]: this `)` closes nothing
+          help: remove it, or add the `(` that it should close, maybe right behind `gob_cyl1 =`
+        as-printed.txt:26:13: error[unclosed-bracket]: this `(` is never closed
+          help: add the `)` where it belongs, at the latest before the end of the statement
+        as-printed.txt:34:33: error[unclosed-bracket]: this `(` is never closed
+          help: add the `)` where it belongs, at the latest before the end of the statement"#]]
+    .assert_eq(&lines.join("\n"));
+}
+
+fn sample() -> (SourceMap, Diagnostic) {
+    let mut sources = SourceMap::default();
+    let first = sources.add("a.geo", "r1 = 4.;\ngob_ä = r2 & r1;\n");
+    let second = sources.add("b.geo", "r3 = 3;\n");
+    let diagnostic = Diagnostic::error("unknown-name", "`r2` is not defined")
+        .at(Span::new(first, 18, 20), "unknown")
+        .see(Span::new(first, 0, 2), "")
+        .see(Span::new(second, 0, 2), "nothing reads this")
+        .help("did you mean `r3`?")
+        .fact("names tell upper from lower case");
+    (sources, diagnostic)
+}
+
+#[test]
+fn a_message_for_people() {
+    let (sources, diagnostic) = sample();
+    expect![[r#"
+        error[unknown-name]: `r2` is not defined
+         --> a.geo:2:9
+          |
+        1 | r1 = 4.;
+          | --
+        2 | gob_ä = r2 & r1;
+          |         ^^ unknown
+          |
+         ::: b.geo:1:1
+          |
+        1 | r3 = 3;
+          | -- nothing reads this
+          |
+          = help: did you mean `r3`?
+          = note: names tell upper from lower case
+    "#]]
+    .assert_eq(&human(&diagnostic, &sources, Colour::Plain));
+    assert!(human(&diagnostic, &sources, Colour::Ansi).contains("\u{1b}["), "colours");
+}
+
+#[test]
+fn a_message_for_editors_and_programs() {
+    let (sources, diagnostic) = sample();
+    expect!["a.geo:2:9: error[unknown-name]: `r2` is not defined"].assert_eq(&short(&diagnostic, &sources));
+    expect![[r#"{"code":"unknown-name","severity":"error","category":"program","title":"`r2` is not defined","file":"a.geo","line":2,"column":9,"end_line":2,"end_column":11,"start":18,"end":20,"labels":[{"text":"unknown","primary":true,"file":"a.geo","line":2,"column":9,"end_line":2,"end_column":11,"start":18,"end":20},{"text":"","primary":false,"file":"a.geo","line":1,"column":1,"end_line":1,"end_column":3,"start":0,"end":2},{"text":"nothing reads this","primary":false,"file":"b.geo","line":1,"column":1,"end_line":1,"end_column":3,"start":0,"end":2}],"help":["did you mean `r3`?"],"notes":["names tell upper from lower case"]}"#]].assert_eq(&json(&diagnostic, &sources));
+    let nowhere = Diagnostic::warning("w", "no place").category(Category::File);
+    expect!["warning[w]: no place"].assert_eq(&short(&nowhere, &sources));
+    expect![[
+        r#"{"code":"w","severity":"warning","category":"file","title":"no place","labels":[],"help":[],"notes":[]}"#
+    ]]
+    .assert_eq(&json(&nowhere, &sources));
+}
+
+/// Spans that do not fit the text must not panic: a text may have been cut, a span may be made up.
+#[test]
+fn spans_beyond_the_text() {
+    let (sources, _) = sample();
+    for (start, end) in [(14, 16), (5, 900), (900, 900), (27, 27), (0, 27)] {
+        let id = sources.get(yont::source::SourceId(0)).map(|_| yont::source::SourceId(0)).unwrap();
+        let diagnostic = Diagnostic::note("n", "t").at(Span::new(id, start, end), "x");
+        assert!(human(&diagnostic, &sources, Colour::Plain).contains("note[n]: t"), "{start}..{end}");
+        assert!(json(&diagnostic, &sources).contains("\"line\""), "{start}..{end}");
+    }
+}
+
+fn plain<'a>(names: &[&'a str]) -> Vec<Candidate<'a>> {
+    names.iter().map(|name| Candidate { name, preferred: false }).collect()
+}
+
+#[test]
+fn near_names() {
+    let cases: [(&str, &[&str], &[&str]); 10] = [
+        ("p_block_3D", &["pob_block_3D", "gob_bl1", "pob_sphere"], &["pob_block_3D"]),
+        ("gob_cly1", &["gob_cyl1", "gob_cyl2", "gob_csg"], &["gob_cyl1"]),
+        ("SIM", &["SIN", "COS", "SUM"], &["SIN", "SUM"]),
+        ("R1", &["r1", "R2", "height"], &["r1"]),
+        ("sphere", &["pob_sphere", "pob_torus"], &["pob_sphere"]),
+        ("metamorp", &["gob_metamorphosis", "gob_swept"], &["gob_metamorphosis"]),
+        ("interpolte", &["INTERPOLATE", "INTERSECTION"], &["INTERPOLATE"]),
+        ("height", &["width", "radius"], &[]),
+        ("q", &["height", "radius"], &[]),
+        ("a", &["a"], &[]),
+    ];
+    for (name, candidates, expected) in cases {
+        assert_eq!(suggest(name, plain(candidates)), expected, "{name}");
+    }
+}
+
+/// `c1` in the figure is defined as `e1`: of all names that differ in one letter, nothing reads that one.
+#[test]
+fn a_name_that_nothing_reads_wins_ties() {
+    let candidates = ["b1", "d1", "r1", "e1", "c3"].map(|name| Candidate { name, preferred: name == "e1" });
+    assert_eq!(suggest("c1", candidates)[0], "e1");
+    let far = [Candidate { name: "radius", preferred: false }, Candidate { name: "radiates", preferred: true }];
+    assert_eq!(suggest("radous", far)[0], "radius", "a clearly better name wins");
+}
+
+/// Every single slip (a letter less, doubled, other, or two swapped) in every place of every name of a rich program.
+#[test]
+fn single_slips_are_recognised() {
+    let names = [
+        "pob_block_3D",
+        "pob_sphere",
+        "pob_ellipsoid",
+        "pob_cylinder_x",
+        "pob_cylinder_y",
+        "pob_torus_z",
+        "pob_gyroid",
+        "tr_bl_uni",
+        "tr_bl_int",
+        "tr_bl_sub",
+        "tr_rotate_x",
+        "tr_rotate_y",
+        "tr_twist_z",
+        "tr_shift",
+        "tr_scale",
+        "tr_offset",
+        "gob_bl1",
+        "gob_cyl1",
+        "gob_cyl2",
+        "gob_csg",
+        "gob_swept",
+        "gob_metamorp",
+        "gob_vox",
+        "gob_bloby",
+        "INTERPOLATE",
+        "INTERSECTION",
+        "UNION",
+        "PRODUCT",
+        "SQRT",
+        "SIGN",
+        "FLOOR",
+        "radius",
+        "height",
+        "thickness",
+        "r_alpha",
+        "x4_delta",
+        "x1min",
+        "x1max",
+        "x2min",
+        "x2max",
+        "depth",
+        "period",
+        "level",
+        "noise",
+    ];
+    let candidates = plain(&names);
+    let (mut right, mut all) = (0, 0);
+    for name in names {
+        for slip in slips(name) {
+            if names.contains(&slip.as_str()) {
+                continue;
+            }
+            all += 1;
+            right += usize::from(suggest(&slip, candidates.iter().copied()).first() == Some(&name));
+        }
+    }
+    assert!(right * 100 >= all * 95, "{right} of {all}");
+}
+
+fn slips(name: &str) -> Vec<String> {
+    let letters: Vec<char> = name.chars().collect();
+    let mut slips = Vec::new();
+    for at in 0..letters.len() {
+        let (before, after) = (&letters[..at], &letters[at + 1..]);
+        let join = |middle: &[char]| [before, middle, after].concat().into_iter().collect();
+        slips.extend([join(&[]), join(&[letters[at], letters[at]]), join(&['k'])]);
+        if let Some(next) = after.first().filter(|n| **n != letters[at]) {
+            slips.push([before, &[*next, letters[at]], &after[1..]].concat().into_iter().collect());
+        }
+    }
+    slips
+}

@@ -1,1 +1,72 @@
-//! Ctrl-C and cancel tokens.
+//! Ctrl-C: a run ends with 130 and writes nothing; the prompt goes on.
+
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use expectrl::{ControlCode, Expect};
+
+use super::cli::folder;
+use super::crash::kill;
+use super::repl::{state, terminal};
+
+/// Programs that keep each kind of work busy far longer than a test waits, each with what is made of it.
+const LONG: &[(&str, &str, &[&str])] = &[
+    (
+        "a mesh",
+        "gob_a = SUM(i = 1 TO 3000, SIN(i*x1)*SIN(i*x2)*SIN(i*x3)) - x1**2;",
+        &["-o", "a.stl", "--resolution", "400"],
+    ),
+    (
+        "a picture",
+        "gob_a = SUM(i = 1 TO 3000, SIN(i*x1)*SIN(i*x2)*SIN(i*x3)) - x1**2;",
+        &["-o", "a.png", "--size", "4000x4000"],
+    ),
+    (
+        "samples",
+        "gob_a = SUM(i = 1 TO 9000, SIN(i*x1)*SIN(i*x2)*SIN(i*x3)) - x1**2;",
+        &["-o", "a.nrrd", "--resolution", "400"],
+    ),
+    ("a loop", "n = 0; i = 0; FOR j = 1 TO 9999999 DO i = i + SIN(j); gob_a = i - x1**2;", &["-o", "a.stl"]),
+];
+const SPACE: &str = "x1min = -4; x1max = 4; x2min = -4; x2max = 4; x3min = -4; x3max = 4;";
+
+#[test]
+fn a_run_that_is_cancelled_ends_with_130_and_writes_nothing() {
+    for (what, program, arguments) in LONG {
+        let text = format!("{program}\n{SPACE}");
+        let folder = folder(&[("a.geo", text.as_bytes())]);
+        let child = Command::new(env!("CARGO_BIN_EXE_yont"))
+            .arg("a.geo")
+            .args(*arguments)
+            .current_dir(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("yont starts");
+        std::thread::sleep(Duration::from_millis(1500));
+        kill(i32::try_from(child.id()).expect("a process number"), "INT");
+        let output = child.wait_with_output().expect("it ends");
+        let err = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(130), "{what}: {err}");
+        assert_eq!(super::cli::names(folder.path()).len(), 1, "{what}: something was written");
+        assert!(!err.contains("panicked"), "{what}: {err}");
+    }
+}
+
+#[test]
+fn the_prompt_survives_ctrl_c_in_a_computation() {
+    let state = state();
+    let mut terminal = terminal(state.path());
+    terminal.send_line("a = 7;").expect("typed");
+    terminal.expect("yont>").expect("an answer");
+    for _ in 0..2 {
+        terminal.send_line("SUM(i = 1 TO 9000000, SUM(j = 1 TO 9000000, SIN(i*j)))").expect("typed");
+        std::thread::sleep(Duration::from_millis(700));
+        terminal.send(ControlCode::EndOfText).expect("typed");
+        terminal.expect("yont>").expect("the prompt is back");
+    }
+    terminal.send_line("a*6").expect("typed");
+    terminal.expect("42").expect("nothing was lost");
+    terminal.send(ControlCode::EndOfTransmission).expect("typed");
+    terminal.expect(expectrl::Eof).expect("Ctrl-D leaves");
+}

@@ -152,19 +152,27 @@ fn outlines_have_the_area_and_the_length_of_closed_forms() {
 }
 
 #[test]
-fn outlines_never_lose_a_crossing() {
-    let field = |x: Ex, y: Ex| (x.clone() * 7.0).sin() * (y.clone() * 5.0).cos() + (x * y * 3.0).sin();
-    for resolution in [1, 2, 7, 8, 9, 50, 133] {
-        let contour = outline(field, [3.0, 2.0], resolution);
+fn outlines_are_closed_and_their_sides_stay_in_their_cells() {
+    let fields: [fn(Ex, Ex) -> Ex; 2] = [
+        |x, y| (x.clone() * 7.0).sin() * (y.clone() * 5.0).cos() + (x * y * 3.0).sin(),
+        |x, y| ((x * 12.9898 + y * 78.233) * 43_758.5).sin(),
+    ];
+    for (field, resolution) in fields.iter().flat_map(|f| [1, 2, 7, 8, 9, 50, 133].map(|n| (f, n))) {
+        let contour = outline(*field, [3.0, 2.0], resolution);
+        let cell = 6.0 / resolution as f64;
+        let mut points: Vec<[u64; 2]> = Vec::new();
         for line in &contour.lines {
             assert!(line.len() > 2, "a closed line has at least three points");
-            let ends = line.iter().zip(line.iter().cycle().skip(1));
-            let cell = 6.0 / resolution as f64;
-            for (a, b) in ends {
+            for (a, b) in line.iter().zip(line.iter().cycle().skip(1)) {
                 assert!((a[0] - b[0]).hypot(a[1] - b[1]) <= 1.5 * cell, "a side longer than a cell's diagonal");
             }
+            points.extend(line.iter().map(|p| p.map(f64::to_bits)));
         }
-        assert!(!contour.lines.is_empty());
+        let count = points.len();
+        points.sort_unstable();
+        points.dedup();
+        assert_eq!(points.len(), count, "each point once, at {resolution}");
+        assert!(contour.area() >= 0.0 && contour.area() <= 24.0);
     }
 }
 

@@ -416,6 +416,23 @@ fn programs_get_shorter_on_the_way_down() {
 }
 
 #[test]
+fn work_that_has_begun_can_be_stopped() {
+    let interrupt = Interrupt::default();
+    let work = {
+        let interrupt = interrupt.clone();
+        std::thread::spawn(move || {
+            let case = &KNOWN[0];
+            extract(&case.shape(), &case.grid(1800), &Limits::default(), &interrupt).err()
+        })
+    };
+    while interrupt.progress().0 == 0 {
+        std::thread::yield_now();
+    }
+    interrupt.cancel();
+    assert_eq!(work.join().expect("no panic"), Some(SurfaceError::Cancelled));
+}
+
+#[test]
 fn progress_reaches_its_end() {
     let interrupt = Interrupt::default();
     extract(&KNOWN[0].shape(), &KNOWN[0].grid(40), &Limits::default(), &interrupt).expect("a mesh");

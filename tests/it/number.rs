@@ -87,6 +87,11 @@ impl Random {
         lo + (hi - lo) * self.unit()
     }
 
+    /// True once in `n` times.
+    fn once_in(&mut self, n: u64) -> bool {
+        self.bits().is_multiple_of(n)
+    }
+
     fn one_of<T: Copy>(&mut self, from: &[T]) -> T {
         from[(self.bits() % from.len() as u64) as usize]
     }

@@ -398,3 +398,38 @@ fn sampled_fields_hold_the_function_at_their_corners() {
     let field = sample(&plane, &[(0.0, 1.0), (0.0, 0.001)], 4, &Interrupt::default()).expect("not cancelled");
     assert_eq!(field.size, [5, 2]);
 }
+
+#[test]
+fn shadows_fall_on_what_lies_behind_and_on_nothing_else() {
+    use yont::picture::shadow::Shadows;
+    // A plate |x|, |y| <= 0.5 at z = 0.5 over a floor at z = -0.5; the light stands straight above.
+    let shape = shape_of(
+        |x, y, z| {
+            let plate = (0.5 - x.abs()).min(&(0.5 - y.abs())).min(&(0.1 - (z.clone() - 0.5).abs()));
+            plate.max(&(-0.5 - z))
+        },
+        3,
+        Demand::Sign,
+    );
+    let (shadows, _) =
+        Shadows::cast(&shape, cube(1.0), [0.0, 0.0, 1.0], 128, &Interrupt::default()).expect("not cancelled");
+    let up = [0.0, 0.0, 1.0];
+    for (x, y) in [(0.0, 0.0), (0.4, -0.4), (0.7, 0.0), (-0.9, 0.9), (0.1, -0.6)] {
+        let covered = f64::max(f64::abs(x), f64::abs(y)) < 0.5;
+        assert_eq!(shadows.lit([x, y, -0.5], up, 1.0), if covered { 0.0 } else { 1.0 }, "({x}, {y})");
+        if covered {
+            assert_eq!(shadows.lit([x, y, 0.6], up, 1.0), 1.0, "the plate shades itself at ({x}, {y})");
+        }
+    }
+    let edge = shadows.lit([0.5, 0.0, -0.5], up, 1.0);
+    assert!(edge > 0.2 && edge < 0.8, "{edge}");
+}
+
+#[test]
+fn a_ball_does_not_shade_its_own_front() {
+    let style = Style { size: [90, 90], ..Style::default() };
+    let [with, without] =
+        [0.6, 0.0].map(|shadow| shot(&shape_of(ball, 3, Demand::Sign), cube(1.1), &Style { shadow, ..style }).image);
+    let apart = with.rgba.iter().zip(&without.rgba).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(apart <= Some(12), "{apart:?}");
+}

@@ -324,6 +324,13 @@ pub const HARD: &[Case] = &[
         volume: None,
     },
     Case {
+        name: "signs at random",
+        half: [1.0, 0.9, 0.8],
+        field: |x, y, z| ((x * 12.9898 + y * 78.233 + z * 37.719) * 43_758.5).sin(),
+        euler: None,
+        volume: None,
+    },
+    Case {
         name: "thinner than a cell",
         half: [1.0; 3],
         field: |x, y, z| 0.013 - (x.squared() + y.squared() + z.squared() - 0.5).abs(),

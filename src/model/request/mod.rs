@@ -1,6 +1,20 @@
 //! What can be asked of an object of a session: a mesh, a picture, frames, a sampled field, values, measures. One meaning for the command
 //! line and the prompt, which only read options and show results.
 
+mod ask;
+pub mod fields;
+mod make;
+pub mod measured;
+pub mod output;
+mod pictures;
+mod subject;
+
+pub use ask::{Info, info, measure, sample, write};
+pub use fields::Sampled;
+pub use make::Written;
+pub use measured::Measured;
+pub use output::{FORMATS, Format, Kind, Output, Target};
+
 use crate::field::Coordinate;
 
 /// How finely a boundary is searched.
@@ -34,31 +48,20 @@ impl Default for View {
 /// How a picture is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureOptions {
-    /// Width and height in pixels.
-    pub size: (usize, usize),
+    /// Width and height in pixels; one that suits the object unless told.
+    pub size: Option<(usize, usize)>,
     /// Samples along each side of a pixel.
     pub supersample: usize,
-    /// A named view (`iso`, `front`, `top` ...).
+    /// A named view (`iso`, `front`, `top` ...), or azimuth and elevation in degrees: `30,20`.
     pub view: String,
-    /// Direction from the object to the eye; wins over `view`.
-    pub camera: Option<[f64; 3]>,
-    /// Palette of a 2-D picture.
+    /// The palette's name.
     pub palette: String,
 }
 
 impl Default for PictureOptions {
     fn default() -> Self {
-        Self { size: (640, 480), supersample: 2, view: "iso".into(), camera: None, palette: "default".into() }
+        Self { size: None, supersample: 2, view: "default".into(), palette: "plain".into() }
     }
-}
-
-/// Where an output goes.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Target {
-    /// A file, or a series if the name holds `{n}`.
-    Path(String),
-    /// Standard output in the format with this extension.
-    Standard(String),
 }
 
 /// How an animation or a numbered series runs.
@@ -76,11 +79,9 @@ impl Default for Timing {
     }
 }
 
-/// One output: everything that decides its bytes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Output {
-    /// Where.
-    pub target: Target,
+/// Everything that decides an output's bytes besides its [`Output`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
     /// Of what.
     pub view: View,
     /// If it is a picture.

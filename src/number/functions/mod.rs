@@ -20,7 +20,7 @@ pub use inverse::{acos, asin, atan, atan2};
 pub use libm::{asinh, atanh, cbrt};
 pub use trigonometric::{NEAR, cos, cos_near, sin, sin_near, tan, tan_near};
 
-/// The inverse hyperbolic cosine, within 2 units in the last place; undefined below 1.
+/// The inverse hyperbolic cosine, within 3 units in the last place; undefined below 1.
 #[inline(always)]
 #[must_use]
 pub fn acosh(x: f64) -> f64 {
@@ -78,8 +78,8 @@ pub const fn error(op: Unary) -> f64 {
         Unary::Exp | Unary::Log | Unary::Log10 | Unary::Sin | Unary::Cos | Unary::Asin | Unary::Acos | Unary::Cbrt => {
             1.0
         }
-        Unary::Tan | Unary::Atan | Unary::Sinh | Unary::Cosh | Unary::Asinh | Unary::Acosh | Unary::Atanh => 2.0,
-        Unary::Tanh => 3.0,
+        Unary::Tan | Unary::Atan | Unary::Sinh | Unary::Cosh | Unary::Asinh | Unary::Atanh => 2.0,
+        Unary::Tanh | Unary::Acosh => 3.0,
     }
 }
 

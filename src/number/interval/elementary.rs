@@ -10,9 +10,6 @@ use super::rounding::{down, least, most, up};
 
 const INF: f64 = f64::INFINITY;
 
-/// From here on the distance of neighbouring doubles is no longer small against a period.
-const FAR: f64 = 1e9;
-
 #[inline(always)]
 pub(super) fn unary(op: Unary, a: Interval) -> Interval {
     match op {
@@ -76,37 +73,36 @@ fn even(op: Unary, a: Interval) -> Interval {
     Interval::new(below(op, op.real(a.smallest())), above(op, op.real(a.largest())))
 }
 
-/// Whether some `first + k period` lies in `a`, in doubt yes.
+/// Whether some `first + k period` lies in `a`, in doubt yes: the slack is wider than the rounding of all that is computed here.
 #[inline(always)]
 fn meets(a: Interval, first: f64, period: f64) -> bool {
-    let slack = 1e-15 * (a.largest() + 10.0);
+    let slack = 4e-15 * (a.largest() + 10.0);
     let k = ((a.lo - slack - first) / period).ceil();
-    // The quotient may be off by a unit in the last place: one step back is on the safe side.
-    let safe = k - if ((a.lo - first) / period - (k - 1.0)).abs() < 1e-9 { 1.0 } else { 0.0 };
-    first + safe * period <= a.hi + slack
+    first + k * period <= a.hi + slack
 }
 
 /// Sine and cosine: `crest` is where one of the maxima lies.
 #[inline(always)]
 fn wave(op: Unary, a: Interval, crest: f64) -> Interval {
-    let undefined = (a.lo == -INF) | (a.hi == INF);
-    let full = Interval { lo: -1.0, hi: 1.0, undefined };
-    if (a.hi - a.lo >= TAU) | (a.largest() >= FAR) | undefined {
-        return full;
-    }
-    let (p, q) = (op.real(a.lo), op.real(a.hi));
-    let lo = if meets(a, crest - PI, TAU) { -1.0 } else { below(op, least(p, q)) };
-    let hi = if meets(a, crest, TAU) { 1.0 } else { above(op, most(p, q)) };
-    Interval::new(lo, hi).clip(-1.0, 1.0)
+    let (p, q) = (functions::near(op, a.lo), functions::near(op, a.hi));
+    let wide = (a.hi - a.lo >= TAU) | (a.largest() >= functions::NEAR);
+    let lo = below(op, least(p, q));
+    let hi = above(op, most(p, q));
+    let lo = if wide | (lo < -1.0) | meets(a, crest - PI, TAU) { -1.0 } else { lo };
+    let hi = if wide | (hi > 1.0) | meets(a, crest, TAU) { 1.0 } else { hi };
+    Interval { lo, hi, undefined: (a.lo == -INF) | (a.hi == INF) }
 }
 
 #[inline(always)]
 fn tangent(a: Interval) -> Interval {
-    let undefined = (a.lo == -INF) | (a.hi == INF);
-    if (a.hi - a.lo >= PI) | (a.largest() >= FAR) | undefined || meets(a, FRAC_PI_2, PI) {
-        return Interval { undefined, ..Interval::WHOLE };
+    let (p, q) = (functions::tan_near(a.lo), functions::tan_near(a.hi));
+    let wild = (a.hi - a.lo >= PI) | (a.largest() >= functions::NEAR) | meets(a, FRAC_PI_2, PI);
+    let (lo, hi) = (below(Unary::Tan, p), above(Unary::Tan, q));
+    Interval {
+        lo: if wild { -INF } else { lo },
+        hi: if wild { INF } else { hi },
+        undefined: (a.lo == -INF) | (a.hi == INF),
     }
-    rising(Unary::Tan, a)
 }
 
 /// Where the plane is cut (x < 0, y = 0) and at the origin the angle may be any.

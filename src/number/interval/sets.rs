@@ -85,7 +85,7 @@ pub(super) fn intersection_smooth(a: Interval, b: Interval, m: Interval) -> Inte
 /// Bounds of eq. (5): exact for one whole or larger `m`, else the product of the ranges of the two factors.
 #[inline(always)]
 fn smooth_of_defined(a: Interval, b: Interval, m: Interval) -> Interval {
-    let undefined = !(m.lo >= 0.0);
+    let undefined = m.lo < 0.0;
     if a.is_empty() | b.is_empty() {
         return Interval { undefined, ..Interval::EMPTY };
     }

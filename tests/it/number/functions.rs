@@ -245,13 +245,36 @@ fn common_angles_take_the_common_way() {
 }
 
 #[test]
+fn blocks_give_the_same_bits_as_single_numbers() {
+    let mut random = Random(5);
+    for &op in UNARY {
+        for length in [0, 1, 15, 16, 100] {
+            let a: Vec<f64> = (0..length).map(|_| if random.once_in(9) { f64::NAN } else { random.any() }).collect();
+            let narrow: Vec<f32> = a.iter().map(|&a| a as f32).collect();
+            let (mut out, mut narrow_out) = (vec![7.0; length + 1], vec![7.0; length + 1]);
+            op.map(&a, &mut out);
+            op.map(&narrow, &mut narrow_out);
+            for i in 0..length {
+                assert!(same(out[i], op.real(a[i])), "{op:?} of {:?} in a block is {:?}", a[i], out[i]);
+                assert!(
+                    same(narrow_out[i].into(), op.single(narrow[i]).into()),
+                    "{op:?} of {:?} in a block",
+                    narrow[i]
+                );
+            }
+            assert_eq!((out[length], narrow_out[length]), (7.0, 7.0));
+        }
+    }
+}
+
+#[test]
 fn singles_are_the_doubles_rounded() {
     let mut random = Random(4);
     for &op in UNARY.iter().filter(|op| !matches!(op, Unary::Powi(_))) {
         let mut worst = (0.0, 0.0);
         for _ in 0..40_000 {
             let (wide, narrow) = (random.any() as f32, random.within(-20.0, 20.0) as f32);
-            let x = if random.bits() % 4 == 0 { wide } else { narrow };
+            let x = if random.once_in(4) { wide } else { narrow };
             let (single, double) = (op.single(x), op.real(f64::from(x)));
             if same(f64::from(single), f64::from(double as f32)) {
                 continue;

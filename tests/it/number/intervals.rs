@@ -26,7 +26,7 @@ fn range(random: &mut Random) -> Interval {
 
 /// A value of the box: its ends, its zero, its whole numbers, or any.
 fn member(random: &mut Random, of: Interval) -> f64 {
-    if of.is_empty() || (of.undefined && random.bits() % 4 == 0) {
+    if of.is_empty() || (of.undefined && random.once_in(4)) {
         return f64::NAN;
     }
     let inside = random.within(of.lo.max(f64::MIN / 4.0), of.hi.min(f64::MAX / 4.0));

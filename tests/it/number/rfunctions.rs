@@ -21,7 +21,7 @@ fn pair(random: &mut Random) -> (f64, f64) {
         5 => a * random.within(-3.0, 3.0),
         _ => scaled(random),
     };
-    if random.bits() % 2 == 0 { (a, b) } else { (b, a) }
+    if random.once_in(2) { (a, b) } else { (b, a) }
 }
 
 /// The union by the quadratic equation that it solves, in 192 bits without cancellation.
@@ -65,7 +65,7 @@ fn sign(x: f64) -> f64 {
 fn signs_are_those_of_max_and_min() {
     let mut random = Random(21);
     for _ in 0..100_000 {
-        let (f, g) = if random.bits() % 4 == 0 { (random.any(), random.any()) } else { pair(&mut random) };
+        let (f, g) = if random.once_in(4) { (random.any(), random.any()) } else { pair(&mut random) };
         let alpha = random.one_of(SYSTEMS);
         let m = random.one_of(&[0.0, 1.0, 2.0, 3.0, 8.0]);
         let (most, least) = (sign(f.max(g)), sign(f.min(g)));

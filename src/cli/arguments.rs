@@ -1,0 +1,356 @@
+//! The command line as data: every option with its help. Nothing is done here; what a value means is in `values`.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::model::request::{FORMATS, Format};
+use crate::picture::camera::View;
+use crate::picture::palette::Palette;
+
+use super::values::{Assignment, Extent, Section, Size, angles, assignment, extent, positive, section, size};
+
+/// The whole command line.
+#[derive(Debug, Parser)]
+#[command(name = "yont", version, about, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(override_usage = "yont [OPTIONS] [FILE] [-o OUT]...\n       yont [OPTIONS] <COMMAND>")]
+pub struct Cli {
+    /// What to do with a program when no command is named
+    #[command(flatten)]
+    pub run: Run,
+    /// How to tell the results
+    #[command(flatten)]
+    pub common: Common,
+    /// One of the commands
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+const AFTER_HELP: &str = "\
+Without a program, `yont` is a prompt. The extension of OUT decides what is made:
+  .stl .obj .ply   the boundary as a mesh          .png   a picture
+  .nrrd            the sampled function            .gif   an animation over T
+  a name with n in braces: one file a frame, numbered from 0 with at least three digits
+  -                standard output, with --format
+
+Exit status: 0 done; 1 ran and failed (an empty object); 2 usage; 3 an error in the program;
+4 a file could not be read or written; 130 Ctrl-C.";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Runs a program; what `yont FILE` does
+    Run(Run),
+    /// Each object: dimension, coordinates and types, bounds, size of its program
+    Info(Info),
+    /// Volume, area, centroid, inertia, bounding box and genus, with error estimates
+    Measure(Measure),
+    /// Values of the object's function at points
+    Sample(Sample),
+    /// Reads programs and tells their errors, without making anything
+    Check(Check),
+    /// Formats programs
+    Fmt(Fmt),
+    /// Explains a built-in function, or a name of a program; without a name, lists them
+    Doc(Doc),
+    /// Prints the completions for a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+    /// Prints the manual page
+    Man,
+}
+
+/// How results and messages are told; these stand before or after a command.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "How it talks and works")]
+pub struct Common {
+    /// Threads; by default one for each core
+    #[arg(short = 'j', long = "threads", value_name = "N", global = true, value_parser = positive)]
+    pub threads: Option<usize>,
+    /// Tell what took how long, and the counters of the work
+    #[arg(long, global = true)]
+    pub timings: bool,
+    /// Only results and errors: no notes, no warnings, no progress
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Tell more about what was made
+    #[arg(short, long, global = true)]
+    pub verbose: bool,
+    /// Colours; `auto` means on a terminal, unless NO_COLOR is set
+    #[arg(long, value_name = "WHEN", global = true, default_value = "auto")]
+    pub color: When,
+    /// The form of errors, warnings and notes
+    #[arg(long, value_name = "FORM", global = true, default_value = "human")]
+    pub diagnostics: Rendering,
+    /// Warnings count as errors
+    #[arg(short = 'W', long = "warnings-as-errors", global = true)]
+    pub strict: bool,
+}
+
+/// When to colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum When {
+    /// On a terminal
+    #[default]
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+/// The renderings of diagnostics.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Rendering {
+    /// With the lines and the places underlined
+    #[default]
+    Human,
+    /// One line each, as editors read it
+    Short,
+    /// One JSON object a line
+    Json,
+}
+
+/// Where the program comes from.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// The program; `-` is standard input
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// The program itself, repeatable; runs after FILE
+    #[arg(short = 'e', long = "evaluate", value_name = "CODE")]
+    pub code: Vec<String>,
+    /// Define NAME, whatever the program says, repeatable
+    #[arg(short = 'D', long = "define", value_name = "NAME=EXPR", value_parser = assignment)]
+    pub define: Vec<Assignment>,
+}
+
+/// Which object, and which part of its space.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct Subject {
+    /// The object; by default the last `gob_` that is defined
+    #[arg(long, value_name = "NAME")]
+    pub object: Option<String>,
+    /// Hold a coordinate at a value (a section), repeatable
+    #[arg(long, value_name = "xN=VALUE", value_parser = section, value_delimiter = ',', allow_hyphen_values = true)]
+    pub at: Vec<Section>,
+    /// The modelling space; by default the program's x1min, x1max and so on
+    #[arg(long, value_name = "xN=LO:HI", value_parser = extent, value_delimiter = ',', allow_hyphen_values = true)]
+    pub bounds: Vec<Extent>,
+}
+
+/// How fine the boundary is sampled.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct Fineness {
+    /// Cells along the longest side of the modelling space; larger is finer (default 128)
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub resolution: Option<usize>,
+    /// The length of a cell, instead of --resolution
+    #[arg(long, value_name = "LENGTH", conflicts_with = "resolution")]
+    pub cell: Option<f64>,
+}
+
+/// How pictures look.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+#[command(next_help_heading = "Pictures")]
+pub struct Look {
+    /// Pixels of a picture; by default a size that suits the object
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<Size>,
+    /// Where the camera stands, in degrees: around the object from its front, and above it; instead of --view
+    #[arg(long, value_name = "AROUND,ABOVE", value_parser = angles, conflicts_with = "view", allow_hyphen_values = true)]
+    pub camera: Option<[f64; 2]>,
+    /// The side that the camera looks from
+    #[arg(long, value_name = "SIDE", value_parser = views())]
+    pub view: Option<String>,
+    /// The colours; in a plot, `mono` is black inside and white outside
+    #[arg(long, value_name = "NAME", value_parser = palettes())]
+    pub palette: Option<String>,
+    /// Samples along each side of a pixel
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub supersample: Option<usize>,
+}
+
+/// The frames of an animation.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+#[command(next_help_heading = "Animation")]
+pub struct Motion {
+    /// Frames; by default those of the step of T
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub frames: Option<usize>,
+    /// Frames a second in a GIF (default 4)
+    #[arg(long, value_name = "F")]
+    pub fps: Option<f64>,
+}
+
+/// Running a program.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct Run {
+    /// Where the program comes from
+    #[command(flatten)]
+    pub program: Program,
+    /// What to make, repeatable; the extension decides the format
+    #[arg(short, long = "output", value_name = "OUT")]
+    pub output: Vec<String>,
+    /// The format of `-o -`
+    #[arg(long, value_name = "FORMAT", value_parser = formats())]
+    pub format: Option<Format>,
+    /// Stay at the prompt after the program has run
+    #[arg(short, long)]
+    pub interactive: bool,
+    /// Exit with 1 when the value of the last expression is 0
+    #[arg(long)]
+    pub exit_status: bool,
+    /// How results are made
+    #[command(flatten)]
+    pub making: Making,
+}
+
+fn formats() -> impl TypedValueParser<Value = Format> {
+    let values = FORMATS.iter().map(|(_, extension, what, _)| PossibleValue::new(*extension).help(*what));
+    // The list above admits nothing that is no format.
+    PossibleValuesParser::new(values).map(|name| Format::by_extension(&name).unwrap_or(Format::Stl))
+}
+
+fn views() -> PossibleValuesParser {
+    PossibleValuesParser::new(View::NAMES.iter().map(|named| named.0).chain(["perspective"]))
+}
+
+fn palettes() -> PossibleValuesParser {
+    PossibleValuesParser::new(Palette::NAMES.iter().map(|named| named.0))
+}
+
+/// How results are made: everything that decides what is in a file.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct Making {
+    /// Which object
+    #[command(flatten)]
+    pub subject: Subject,
+    /// How fine
+    #[command(flatten)]
+    pub fineness: Fineness,
+    /// How it looks
+    #[command(flatten)]
+    pub look: Look,
+    /// Over time
+    #[command(flatten)]
+    pub motion: Motion,
+}
+
+/// The options of a run, without a run, for reading them at the prompt.
+#[derive(Debug, Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+struct Options {
+    #[command(flatten)]
+    making: Making,
+}
+
+impl Making {
+    /// These with the options in `words` laid over them: `--resolution 64 --view top`. Of two that exclude each other, the
+    /// one said last stays.
+    ///
+    /// # Errors
+    /// Words for the user on the first option that is none or has no such value.
+    pub fn with(&self, words: &str) -> Result<Self, String> {
+        let mut options = Options { making: self.clone() };
+        let says = |name: &str| words.split_whitespace().any(|word| word.split('=').next() == Some(name));
+        if says("--resolution") {
+            options.making.fineness.cell = None;
+        }
+        if says("--cell") {
+            options.making.fineness.resolution = None;
+        }
+        if says("--view") {
+            options.making.look.camera = None;
+        }
+        if says("--camera") {
+            options.making.look.view = None;
+        }
+        let read = options.try_update_from(words.split_whitespace());
+        read.map_err(|error| error.to_string().trim_start_matches("error: ").lines().next().unwrap_or("").to_owned())?;
+        Ok(options.making)
+    }
+}
+
+/// Telling about objects.
+#[derive(Args, Clone, Debug)]
+pub struct Info {
+    /// Where the program comes from
+    #[command(flatten)]
+    pub program: Program,
+    /// Only this object
+    #[arg(long, value_name = "NAME")]
+    pub object: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Measuring an object.
+#[derive(Args, Clone, Debug)]
+pub struct Measure {
+    /// Where the program comes from
+    #[command(flatten)]
+    pub program: Program,
+    /// Which object
+    #[command(flatten)]
+    pub subject: Subject,
+    /// How fine
+    #[command(flatten)]
+    pub fineness: Fineness,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Sampling an object's function.
+#[derive(Args, Clone, Debug)]
+pub struct Sample {
+    /// Where the program comes from
+    #[command(flatten)]
+    pub program: Program,
+    /// Which object
+    #[command(flatten)]
+    pub subject: Subject,
+    /// The points, one a line, numbers apart by white space or commas; `-`, the default, is standard input
+    #[arg(long, value_name = "FILE")]
+    pub points: Option<PathBuf>,
+    /// Where the values go; by default to standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Write the gradient after the value
+    #[arg(long)]
+    pub gradient: bool,
+}
+
+/// Checking programs.
+#[derive(Args, Clone, Debug)]
+pub struct Check {
+    /// The programs; `-` is standard input
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+}
+
+/// Formatting programs.
+#[derive(Args, Clone, Debug)]
+pub struct Fmt {
+    /// The programs, which are rewritten; `-` goes from standard input to standard output
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// Write nothing; exit with 1 when a file is not formatted
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// Explaining names.
+#[derive(Args, Clone, Debug)]
+pub struct Doc {
+    /// A built-in function, or a name of the program
+    pub name: Option<String>,
+    /// A program that defines the name
+    #[arg(long, value_name = "FILE")]
+    pub file: Option<PathBuf>,
+}

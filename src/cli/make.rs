@@ -1,0 +1,88 @@
+//! From options to requests of the model, and what is told of the files that were made.
+
+use std::io::BufWriter;
+use std::time::Instant;
+
+use crate::field::Coordinate;
+use crate::model::Session;
+use crate::model::request::{self, Cells, Options, Output, PictureOptions, Target, Timing, View, Written};
+
+use super::arguments::Making;
+use super::console::Console;
+use super::status::Status;
+
+/// Which object, which part of its space, how finely.
+#[must_use]
+pub fn view(making: &Making) -> View {
+    let default = View::default();
+    let cells = match (making.fineness.cell, making.fineness.resolution) {
+        (Some(length), _) => Cells::Length(length),
+        (None, Some(count)) => Cells::Along(count),
+        (None, None) => default.cells,
+    };
+    View {
+        object: making.subject.object.clone(),
+        at: making.subject.at.iter().map(|section| (Coordinate(section.coordinate), section.value)).collect(),
+        bounds: making
+            .subject
+            .bounds
+            .iter()
+            .map(|extent| (Coordinate(extent.coordinate), extent.lo, extent.hi))
+            .collect(),
+        cells,
+    }
+}
+/// Makes one output and tells what was made.
+///
+/// # Errors
+/// The status of a broken standard error or output.
+pub fn make(console: &Console, session: &mut Session, making: &Making, output: &Output) -> Result<Status, Status> {
+    let words = match &output.target {
+        Target::Standard => "standard output".into(),
+        Target::File(path) => path.display().to_string(),
+        Target::Series { before, after } => format!("{before}{{n}}{after}"),
+    };
+    let begun = Instant::now();
+    let made = {
+        let _progress = console.progress(session.interrupt(), &words);
+        let mut standard = BufWriter::new(std::io::stdout().lock());
+        request::write(session, output, &options(making), &mut standard)
+    };
+    console.timing(&words, begun.elapsed());
+    let written = match made {
+        Ok(written) => written,
+        Err(diagnostics) => return Ok(console.report(session.sources(), &diagnostics)),
+    };
+    if !matches!(output.target, Target::Standard) {
+        tell(console, &written);
+    }
+    Ok(console.report(session.sources(), &written.notes))
+}
+
+/// One line a file; what each cost with `-v` or `--timings`.
+fn tell(console: &Console, written: &Written) {
+    for (at, file) in written.files.iter().enumerate() {
+        console.note(&match written.lines.get(at) {
+            Some(line) if console.costs() => format!("{}: {line}", file.display()),
+            _ => file.display().to_string(),
+        });
+    }
+}
+
+/// Everything that decides what is made.
+#[must_use]
+pub fn options(making: &Making) -> Options {
+    let (picture, timing) = (PictureOptions::default(), Timing::default());
+    let look = &making.look;
+    let camera = look.camera.map(|[around, above]| format!("{around},{above}"));
+    Options {
+        view: view(making),
+        picture: PictureOptions {
+            size: look.size.map(|size| (size.width, size.height)),
+            supersample: look.supersample.unwrap_or(picture.supersample),
+            view: camera.or_else(|| look.view.clone()).unwrap_or(picture.view),
+            palette: look.palette.clone().unwrap_or(picture.palette),
+        },
+        timing: Timing { frames: making.motion.frames, fps: making.motion.fps.unwrap_or(timing.fps) },
+    }
+}

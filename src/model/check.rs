@@ -1,0 +1,161 @@
+//! What is known of a definition without evaluating it: its form, unknown names, calls in bodies, loops that cannot step.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::builtins::{self, Meaning};
+use crate::diagnostic::Diagnostic;
+use crate::source::Span;
+use crate::syntax::tree::{Body, Expr, GeometricType, Name, Statement, StatementKind};
+
+use super::definition::Definition;
+use super::errors;
+use super::names::{self, Names};
+use super::state::State;
+
+/// The names that a statement would define.
+#[must_use]
+pub fn defines(statement: &Statement) -> Vec<Name> {
+    match &statement.kind {
+        StatementKind::Define { name, .. } | StatementKind::Element { name, .. } => vec![name.name.clone()],
+        _ => names::assigned(std::slice::from_ref(statement)),
+    }
+}
+
+/// What is wrong with a statement by itself.
+#[must_use]
+pub fn form(statement: &Statement) -> Option<Diagnostic> {
+    match &statement.kind {
+        StatementKind::Define { name, parameters: Some(parameters), body, .. } => {
+            if let Some(builtin) = builtins::find(&name.name) {
+                return Some(errors::taken_by_builtin(builtin, &name.name, name.span));
+            }
+            if name.name.starts_with("gob_") {
+                return Some(errors::gob_with_parameters(&name.name, name.span));
+            }
+            if names::is_system(&name.name) {
+                return Some(errors::system_with_parameters(&name.name, name.span));
+            }
+            let mut seen = FxHashSet::default();
+            let twice = parameters.iter().find(|p| !seen.insert(p.name.name.clone()));
+            twice.map(|p| errors::parameter_twice(&p.name.name, p.name.span)).or_else(|| loops_in(body))
+        }
+        StatementKind::Define { body, .. } => loops_in(body),
+        StatementKind::Type { subject, kind } => type_form(&subject.name, subject.span, kind),
+        _ => loops(std::slice::from_ref(statement)),
+    }
+}
+
+fn loops_in(body: &Body) -> Option<Diagnostic> {
+    match body {
+        Body::Block(block) => loops(block),
+        Body::Expression(_) => None,
+    }
+}
+
+/// The first loop whose condition reads nothing that its body assigns.
+fn loops(block: &[Statement]) -> Option<Diagnostic> {
+    block.iter().find_map(|statement| match &statement.kind {
+        StatementKind::While { condition, body } => {
+            never_steps(condition, body, statement.span).or_else(|| loops(body))
+        }
+        StatementKind::For { body, .. } => loops(body),
+        StatementKind::If { then, otherwise, .. } => {
+            loops(then).or_else(|| loops(otherwise.as_deref().unwrap_or_default()))
+        }
+        StatementKind::Define { body, .. } => loops_in(body),
+        _ => None,
+    })
+}
+
+fn never_steps(condition: &Expr, body: &[Statement], span: Span) -> Option<Diagnostic> {
+    let reads: Vec<Name> = names::of_expression(condition).reads.into_iter().map(|(n, _)| n).collect();
+    let assigns = names::assigned(body);
+    let steps = reads.iter().any(|n| assigns.contains(n));
+    (!steps).then(|| errors::loop_never_steps(&reads, &assigns, condition.span, span))
+}
+
+fn type_form(subject: &str, span: Span, kind: &GeometricType) -> Option<Diagnostic> {
+    let coordinate = super::environment::coordinate(subject).is_some();
+    let fits = match kind {
+        GeometricType::Constant(_) | GeometricType::Group(_) => true,
+        GeometricType::Center(_) => !coordinate,
+        _ => coordinate,
+    };
+    (!fits).then(|| {
+        let title = if coordinate {
+            format!("`{subject}` is a coordinate, and CENTER belongs to an object")
+        } else {
+            format!("`{subject}` is no coordinate; an object's types are CONSTANT, G and CENTER")
+        };
+        Diagnostic::error("bad-type", title).at(span, "")
+    })
+}
+
+/// The unknown names of an expression that is evaluated where it stands.
+#[must_use]
+pub fn unknown(
+    state: &State,
+    said: &Names,
+    excused: &FxHashSet<Name>,
+    later: &FxHashMap<Name, Span>,
+) -> Vec<Diagnostic> {
+    let missing = said.reads.iter().filter(|(n, _)| state.get(n).is_none());
+    missing
+        .map(|(name, span)| match later.get(name) {
+            _ if excused.contains(name) => errors::excused(name),
+            Some(place) => errors::defined_later(name, *span, *place),
+            None => errors::unknown_name(state, name, &[*span], false, excused),
+        })
+        .collect()
+}
+
+/// One message for each name among those read that nothing defines.
+#[must_use]
+pub fn unknown_names<'r>(
+    state: &State,
+    reads: impl Iterator<Item = (&'r Name, Span)>,
+    excused: &FxHashSet<Name>,
+    note: bool,
+) -> Vec<Diagnostic> {
+    let mut order: Vec<&Name> = Vec::new();
+    let mut places: FxHashMap<&Name, Vec<Span>> = FxHashMap::default();
+    for (name, span) in reads {
+        if state.get(name).is_none() && !excused.contains(name) {
+            let places = places.entry(name).or_insert_with(|| {
+                order.push(name);
+                Vec::new()
+            });
+            if places.len() < 4 {
+                places.push(span);
+            }
+        }
+    }
+    order.into_iter().map(|name| errors::unknown_name(state, name, &places[name], note, excused)).collect()
+}
+
+/// Calls inside a function's body, which nothing has evaluated yet.
+#[must_use]
+pub fn bodies(state: &State, definition: &Definition, said: &Names) -> Vec<Diagnostic> {
+    if !definition.is_function() {
+        return Vec::new();
+    }
+    let mut told = Vec::new();
+    for (name, span, given) in &said.calls {
+        let Some(StatementKind::Define { parameters: Some(p), .. }) = state.get(name).map(|d| &d.statement.kind) else {
+            continue;
+        };
+        if p.len() != *given {
+            let parameters: Vec<&str> = p.iter().map(|p| &*p.name.name).collect();
+            let signature = format!("{name}({})", parameters.join(", "));
+            told.push(errors::wrong_count(&signature, p.len(), *given, *span));
+        }
+    }
+    for (name, span, given) in &said.builtins {
+        let Some(builtin) = builtins::find(name) else { continue };
+        let one_array = matches!(builtin.meaning, Meaning::Fold(_)) && *given == 1;
+        if !one_array && !builtin.arity().admits(*given) {
+            told.push(errors::wrong_builtin_count(builtin, *given, *span));
+        }
+    }
+    told
+}

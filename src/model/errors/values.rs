@@ -1,0 +1,320 @@
+//! Messages about values: kinds, numbers, arrays, loops, limits.
+
+use crate::builtins::Builtin;
+use crate::diagnostic::Diagnostic;
+use crate::field::Coordinates;
+use crate::number::Binary;
+use crate::source::Span;
+use crate::syntax::tree::{ChainOp, FoldOp};
+
+use super::super::lower::{Fault, Lowered};
+use super::super::value::{self, Scalar, Value};
+use super::count;
+
+/// What messages call an operand of a set operation or a truth.
+pub fn operand_of(op: ChainOp) -> &'static str {
+    match op {
+        ChainOp::Or => "an operand of OR",
+        ChainOp::And => "an operand of AND",
+        ChainOp::Union => "an operand of `|`",
+        ChainOp::Subtract => "an operand of `\\`",
+        ChainOp::Intersect => "an operand of `&`",
+        ChainOp::Product => "an operand of `@`",
+        ChainOp::Add | ChainOp::Sub | ChainOp::Mul | ChainOp::Div => "an operand",
+    }
+}
+
+/// What messages call an operand of a fold.
+pub fn folded(op: FoldOp) -> &'static str {
+    match op {
+        FoldOp::Sum => "an operand of SUM",
+        FoldOp::Product => "an operand of PRODUCT",
+        FoldOp::Union => "an operand of UNION",
+        FoldOp::Intersection => "an operand of INTERSECTION",
+        FoldOp::Minimum => "an operand of MINIMUM",
+        FoldOp::Maximum => "an operand of MAXIMUM",
+        FoldOp::Array => "an element of ARRAY",
+    }
+}
+
+/// Something that must be a number or a function of the coordinates.
+pub fn needs_scalar(place: &str, value: &Value, span: Span) -> Diagnostic {
+    let told = Diagnostic::error("needs-number", format!("{place} cannot be {}", value.kind())).at(span, value.kind());
+    match value {
+        Value::Array(_) => told.help("name an element with `[i]`, or fold it: SUM, MAXIMUM, UNION ..."),
+        Value::Function(f) => told.help(format!("call it: `{}`", f.signature())),
+        _ => told,
+    }
+}
+
+/// Something that must be a number, the same at every point.
+pub fn needs_number(place: &str, coordinates: Coordinates, span: Span) -> Diagnostic {
+    Diagnostic::error("needs-constant", format!("{place} cannot depend on {}", list(coordinates)))
+        .at(span, "differs from point to point")
+}
+
+/// Something that must be an array of numbers.
+pub fn needs_numbers(place: &str, value: &Value, span: Span) -> Diagnostic {
+    Diagnostic::error("needs-numbers", format!("{place} needs an array of numbers, not {}", value.kind()))
+        .at(span, value.kind())
+        .help("write it like `[0, 1, 2]`")
+}
+
+/// Something that must be a text.
+pub fn needs_text(place: &str, value: &Value, span: Span) -> Diagnostic {
+    Diagnostic::error("needs-text", format!("{place} must be a text in quotes, not {}", value.kind()))
+        .at(span, value.kind())
+}
+
+fn list(coordinates: Coordinates) -> String {
+    coordinates.iter().map(|c| c.to_string()).collect::<Vec<_>>().join(", ")
+}
+
+/// A `gob_` is a number or a function of the coordinates.
+///
+/// # Errors
+/// If the value is something else.
+pub fn check_object(name: &str, value: &Value, span: Span) -> Lowered<()> {
+    match value {
+        Value::Array(_) | Value::Text(_) | Value::Function(_) if name.starts_with("gob_") => {
+            let title = format!("`{name}` is an object, a function of the coordinates, and cannot be {}", value.kind());
+            Err(Diagnostic::error("not-an-object", title)
+                .at(span, value.kind())
+                .help("a name without `gob_` may hold anything")
+                .into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Arithmetic on a text or a function.
+pub fn no_arithmetic(value: &Value, span: Span) -> Diagnostic {
+    let told = Diagnostic::error("no-arithmetic", format!("{} has no arithmetic", value.kind())).at(span, value.kind());
+    match value {
+        Value::Function(f) => told.help(format!("call it: `{}`", f.signature())),
+        _ => told,
+    }
+}
+
+/// Arrays of two lengths in one operation.
+pub fn lengths_differ(a: usize, b: usize, at: Span, bt: Span) -> Diagnostic {
+    Diagnostic::error("lengths-differ", format!("an array of {a} and one of {b} cannot be combined by element"))
+        .at(bt, count(b, "element"))
+        .see(at, count(a, "element"))
+}
+
+/// A text or a function in an array.
+pub fn not_an_element(value: &Value, span: Span) -> Diagnostic {
+    Diagnostic::error("not-an-element", format!("{} cannot be an element of an array", value.kind())).at(span, "")
+}
+
+/// An index on something that is no array.
+pub fn not_an_array(value: &Value, span: Span) -> Diagnostic {
+    Diagnostic::error("not-an-array", format!("{} has no elements", value.kind())).at(span, "not an array")
+}
+
+/// An index out of range or not whole.
+pub fn bad_index(i: f64, length: usize, span: Span) -> Diagnostic {
+    let shown = value::number(i);
+    let title = if i.fract() == 0.0 {
+        format!("there is no element {shown}: the array has {}", count(length, "element"))
+    } else {
+        format!("an index must be a whole number, not {shown}")
+    };
+    Diagnostic::error("bad-index", title).at(span, format!("is {shown}")).help(format!("indices go from 1 to {length}"))
+}
+
+/// An array without elements where one is needed.
+pub fn empty_array(span: Span) -> Diagnostic {
+    Diagnostic::error("empty-array", "this array has no elements").at(span, "")
+}
+
+/// A vector of another length.
+pub fn needs_length(n: usize, given: usize, span: Span) -> Diagnostic {
+    Diagnostic::error("needs-length", format!("a vector of length {n} is needed here, not of {given}")).at(span, "")
+}
+
+/// A fold without operands.
+pub fn empty_fold(op: FoldOp, span: Span) -> Diagnostic {
+    let name = folded(op).rsplit(' ').next().unwrap_or_default();
+    Diagnostic::error("empty-fold", format!("{name} of nothing has no value"))
+        .at(span, "no operand")
+        .help("only an empty SUM (0) and an empty PRODUCT (1) have one")
+}
+
+/// ARRAY without an index.
+pub fn array_needs_index(builtin: &Builtin, span: Span) -> Diagnostic {
+    Diagnostic::error("wrong-kind", "ARRAY needs an index")
+        .at(span, "")
+        .help(format!("write `{}`", builtin.signature()))
+}
+
+/// Branches of an IF on a coordinate that cannot be chosen between.
+pub fn branches_differ(a: &Value, b: &Value, span: Span) -> Diagnostic {
+    let title = match (a, b) {
+        (Value::Array(a), Value::Array(b)) => {
+            format!("the branches are arrays of {} and {} elements", a.items().len(), b.items().len())
+        }
+        _ => format!("one branch is {} and the other {}", a.kind(), b.kind()),
+    };
+    Diagnostic::error("branches-differ", title)
+        .at(span, "the condition differs from point to point")
+        .help("both branches must be of one kind")
+}
+
+/// An operation as the user would write it.
+pub fn operation(op: Binary, a: Scalar, b: Scalar) -> String {
+    let sign = match op {
+        Binary::Add => " + ",
+        Binary::Sub => " - ",
+        Binary::Mul => "*",
+        Binary::Div => "/",
+        Binary::Pow => "**",
+        _ => " ",
+    };
+    format!("{}{sign}{}", factor(a), factor(b))
+}
+
+fn factor(s: Scalar) -> String {
+    let shown = shown(s);
+    if shown.starts_with('-') { format!("({shown})") } else { shown }
+}
+
+fn shown(s: Scalar) -> String {
+    s.number().map_or_else(|| "...".to_owned(), value::number)
+}
+
+/// A call as the user would write it.
+pub fn applied(name: &str, arguments: &[Scalar]) -> String {
+    let all: Vec<String> = arguments.iter().map(|a| shown(*a)).collect();
+    format!("{name}({})", all.join(", "))
+}
+
+/// A result that is undefined or infinite though its operands are numbers is an error at once.
+///
+/// # Errors
+/// If it is.
+pub fn check_defined(operands: &[Scalar], result: Scalar, what: impl FnOnce() -> String, span: Span) -> Lowered<()> {
+    let Scalar::Number(value) = result else { return Ok(()) };
+    let finite = |s: &Scalar| s.number().is_some_and(f64::is_finite);
+    if value.is_finite() || !operands.iter().all(finite) {
+        return Ok(());
+    }
+    let what = what();
+    let told = if value.is_nan() {
+        Diagnostic::error("undefined", format!("{what} is undefined")).at(span, "has no real value")
+    } else if what.contains("/0") || what.ends_with("/(-0)") {
+        Diagnostic::error("division-by-zero", format!("{what} divides by zero")).at(span, "division by zero")
+    } else {
+        Diagnostic::error("infinite", format!("{what} is infinite or too large for a number")).at(span, "not finite")
+    };
+    Err(Fault::from(told))
+}
+
+/// `r_alpha` or `r_m` out of range.
+pub fn bad_system(name: &str, value: &Value, span: Span) -> Diagnostic {
+    let shown = match value {
+        Value::Scalar(Scalar::Number(n)) => value::number(*n),
+        other => other.kind().to_owned(),
+    };
+    let told = Diagnostic::error("bad-system", format!("`{name}` cannot be {shown}")).at(span, "");
+    if name == super::super::names::R_ALPHA {
+        told.help("-1 < r_alpha <= 1; 1 is max and min, 0 the form without corners but where both vanish")
+    } else {
+        told.help("r_m is a whole number: 1, 2, ... for so many continuous derivatives, 0 for off")
+    }
+}
+
+/// Too many turns.
+pub fn too_many_turns(limit: usize, span: Span) -> Diagnostic {
+    Diagnostic::error("too-many-turns", format!("loops and calls took {limit} turns without an end"))
+        .at(span, "")
+        .help("does the body ever make the condition false? The limit holds for all loops of one input together")
+}
+
+/// A graph that has grown too large.
+pub fn too_many_nodes(limit: usize, span: Span) -> Diagnostic {
+    Diagnostic::error("too-many-nodes", format!("the expressions of this session have more than {limit} operations"))
+        .at(span, "")
+}
+
+/// A loop on a coordinate that nothing ends.
+pub fn unbounded_loop(coordinates: Coordinates, turns: usize, span: Span) -> Diagnostic {
+    Diagnostic::error(
+        "unbounded-loop",
+        format!("this loop depends on {} and nothing ends it within {turns} turns", list(coordinates)),
+    )
+    .at(span, "")
+    .help("count its turns and bound them: `WHILE (n < 100 AND ...) DO BEGIN ... n = n + 1; END`")
+}
+
+/// A FOR or a fold without end.
+pub fn endless(span: Span) -> Diagnostic {
+    Diagnostic::error("endless", "this would never end").at(span, "").help("bounds must be finite and STEP not 0")
+}
+
+/// Calls nested too deep.
+pub fn too_many_calls(name: &str, limit: usize, span: Span) -> Diagnostic {
+    Diagnostic::error("too-many-calls", format!("calls of `{name}` are nested deeper than {limit}"))
+        .at(span, "")
+        .help("does the recursion end? Its condition must not depend on a coordinate")
+}
+
+/// Expressions nested too deep during evaluation.
+pub fn too_deep(limit: usize, span: Span) -> Diagnostic {
+    Diagnostic::error("too-deep", "calls within brackets are nested too deep to be evaluated")
+        .at(span, "")
+        .fact(format!("calls may be nested {limit} deep where their bodies are simple"))
+}
+
+/// Too many elements.
+pub fn array_too_large(limit: usize, span: Span) -> Diagnostic {
+    Diagnostic::error("array-too-large", format!("an array may have at most {limit} elements")).at(span, "")
+}
+
+/// Too many levels.
+pub fn array_too_deep(limit: u16, span: Span) -> Diagnostic {
+    Diagnostic::error("array-too-deep", format!("arrays may be nested at most {limit} deep")).at(span, "")
+}
+
+/// An index on a coordinate into a large array.
+pub fn too_many_choices(limit: usize, span: Span) -> Diagnostic {
+    Diagnostic::error("too-many-choices", format!("an index on a coordinate chooses among at most {limit} elements"))
+        .at(span, "")
+}
+
+/// A range whose bounds are in the wrong order.
+pub fn empty_range(lo: f64, hi: f64, span: Span) -> Diagnostic {
+    Diagnostic::error("empty-range", format!("no number lies between {} and {}", value::number(lo), value::number(hi)))
+        .at(span, "")
+}
+
+/// A value outside its own range.
+pub fn outside_range(name: &str, v: f64, lo: f64, hi: f64, span: Span) -> Diagnostic {
+    let (v, lo, hi) = (value::number(v), value::number(lo), value::number(hi));
+    Diagnostic::warning("outside-range", format!("`{name}` is {v}, outside its range [{lo}, {hi}]")).at(span, "")
+}
+
+/// A range on something that is no number.
+pub fn range_needs_number(name: &str, value: &Value, span: Span) -> Diagnostic {
+    Diagnostic::error("range-needs-number", format!("only a number has a range, and `{name}` is {}", value.kind()))
+        .at(span, "")
+}
+
+/// The second argument of DIFF.
+pub fn bad_variable(span: Span) -> Diagnostic {
+    Diagnostic::error("bad-variable", "the second argument of DIFF is a coordinate or a name")
+        .at(span, "")
+        .help("for example `DIFF(gob_a, x1)` or `DIFF(gob_a, r1)`")
+}
+
+/// All sixteen coordinates are in use.
+pub fn no_spare_coordinate(span: Span) -> Diagnostic {
+    Diagnostic::error("no-spare-coordinate", "DIFF by a name needs one of x1 to x16 to be unused").at(span, "")
+}
+
+/// A built-in that needs coordinates.
+pub fn no_coordinates(name: &str, span: Span) -> Diagnostic {
+    Diagnostic::error("no-coordinates", format!("{name} needs a function of the coordinates, and this is a number"))
+        .at(span, "")
+}

@@ -1,0 +1,176 @@
+//! From a name to an [`Object`]: its function, its coordinates with their types and ranges, its levels.
+
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::field::Coordinate;
+use crate::syntax::tree::{GeometricType, Name};
+
+use super::environment::{self, Axis, Object, Role};
+use super::errors;
+use super::session::Session;
+use super::state::{Entry, Kept};
+use super::value::{Scalar, Value};
+
+/// A value that can be asked for, or the messages that say why not.
+type Asked<T> = Result<T, Vec<Diagnostic>>;
+
+impl Session {
+    /// The object of that name, ready to be compiled; without a name the last `gob_` defined.
+    ///
+    /// # Errors
+    /// Messages for the user: an unknown name, one that fails, one that is no object, types that contradict each other.
+    pub fn object(&mut self, name: Option<&str>) -> Asked<Object> {
+        let name = match name {
+            Some(name) => Name::from(name),
+            None => self.last_object().ok_or_else(|| vec![no_object()])?,
+        };
+        self.refresh(&name);
+        let scalar = self.function(&name)?;
+        let node = scalar.node(&mut self.graph);
+        let uses = self.graph.coordinates(node);
+        let mut told = Vec::new();
+        let mut axes = Vec::new();
+        for c in (1..=16).map(Coordinate) {
+            match self.axis(c, uses.contains(c)) {
+                Ok(Some(axis)) => axes.push(axis),
+                Ok(None) if uses.contains(c) => told.push(environment::untyped(&name, c)),
+                Ok(None) => {}
+                Err(mut errors) => told.append(&mut errors),
+            }
+        }
+        told.extend(roles_clash(&axes));
+        let (levels, center) = self.levels(&name).unwrap_or_else(|mut errors| {
+            told.append(&mut errors);
+            Default::default()
+        });
+        if !told.is_empty() {
+            return Err(told);
+        }
+        let doc = self.doc(&name).unwrap_or_default().into();
+        Ok(Object { name, doc, node, uses, axes, levels, center })
+    }
+
+    /// The names of all objects in the order of the text.
+    #[must_use]
+    pub fn objects(&self) -> Vec<String> {
+        self.names().into_iter().filter(|n| n.starts_with("gob_")).collect()
+    }
+
+    fn last_object(&self) -> Option<Name> {
+        self.state.program().iter().rev().find_map(|entry| {
+            let Entry::Definition(definition) = entry else { return None };
+            let gob = |n: &&Name| n.starts_with("gob_") && self.state.is_current_for(n, definition);
+            definition.outputs.iter().rev().find(gob).cloned()
+        })
+    }
+
+    fn function(&self, name: &Name) -> Asked<Scalar> {
+        match self.value(name) {
+            Some(Ok(Value::Scalar(scalar))) => Ok(scalar),
+            Some(Ok(other)) => Err(vec![
+                Diagnostic::error("not-an-object", format!("`{name}` is {}, not an object", other.kind()))
+                    .help("an object is a function of the coordinates: `gob_ball = 1 - x1**2 - x2**2 - x3**2;`"),
+            ]),
+            Some(Err(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(*told).clone() }]),
+            None if self.is_defined(name) => {
+                Err(vec![Diagnostic::error("never-assigned", format!("`{name}` has no value"))])
+            }
+            None => Err(vec![errors::unknown_name(&self.state, name, &[], false, &Default::default())]),
+        }
+    }
+
+    /// A number of the environment, if it is set.
+    fn setting(&self, name: &str) -> Asked<Option<f64>> {
+        match self.value(name) {
+            None => Ok(None),
+            Some(Ok(Value::Scalar(Scalar::Number(value)))) if value.is_finite() => Ok(Some(value)),
+            Some(Ok(other)) => {
+                let told = Diagnostic::error("bad-setting", format!("`{name}` must be a number, not {}", other.kind()));
+                let place = self.state.get(name).map(|d| d.place());
+                Err(vec![place.into_iter().fold(told, |told, span| told.at(span, ""))])
+            }
+            Some(Err(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(*told).clone() }]),
+        }
+    }
+
+    fn axis(&self, c: Coordinate, used: bool) -> Asked<Option<Axis>> {
+        let lo = self.setting(&format!("{c}min"))?;
+        let hi = self.setting(&format!("{c}max"))?;
+        let delta = self.setting(&format!("{c}_delta"))?;
+        let range = lo.zip(hi);
+        if let Some((lo, hi)) = range
+            && lo >= hi
+        {
+            let told =
+                Diagnostic::error("no-extent", format!("the modelling space has no extent along {c}: {lo} to {hi}"));
+            let place = self.state.get(&format!("{c}max")).map(|d| d.place());
+            return Err(vec![
+                place.into_iter().fold(told, |t, s| t.at(s, "")).help(format!("{c}min must be below {c}max")),
+            ]);
+        }
+        let declared = self.declared_role(&c.to_string())?;
+        let is_declared = declared.is_some();
+        let role = match declared.or_else(|| environment::default_role(c)) {
+            Some(role) => role,
+            None => match lo {
+                Some(lo) => Role::Constant(lo),
+                None => return Ok(None),
+            },
+        };
+        let axis = Axis { coordinate: c, role, declared: is_declared, range, delta };
+        let shown = used || axis.is_space() && (is_declared || range.is_some());
+        Ok(shown.then_some(axis))
+    }
+
+    fn declared_role(&self, subject: &str) -> Asked<Option<Role>> {
+        let Some(declared) = self.state.declared(subject) else { return Ok(None) };
+        let numbers = self.type_numbers(subject)?;
+        Ok(environment::role(&declared.kind, &numbers))
+    }
+
+    /// The numbers behind a declared type.
+    fn type_numbers(&self, subject: &str) -> Asked<Vec<f64>> {
+        let Some(declared) = self.state.declared(subject) else { return Ok(Vec::new()) };
+        match self.state.kept(declared.definition.id) {
+            Some(Kept::One(value)) => Ok(numbers(value)),
+            Some(Kept::Failed(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(**told).clone() }]),
+            _ => Ok(Vec::new()),
+        }
+    }
+
+    /// The levels of an object's boundary, and its centre.
+    #[allow(clippy::type_complexity)]
+    fn levels(&self, name: &str) -> Asked<(Vec<f64>, Option<Vec<f64>>)> {
+        let numbers = self.type_numbers(name)?;
+        Ok(match self.state.declared(name).map(|d| &d.kind) {
+            Some(GeometricType::Constant(_) | GeometricType::Group(_)) => (numbers, None),
+            Some(GeometricType::Center(_)) => (vec![0.0], Some(numbers)),
+            _ => (vec![0.0], None),
+        })
+    }
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Scalar(Scalar::Number(n)) => vec![*n],
+        Value::Array(array) => array.items().iter().flat_map(numbers).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Two coordinates that show the same.
+fn roles_clash(axes: &[Axis]) -> Option<Diagnostic> {
+    let unique = |role: &Role| !matches!(role, Role::Constant(_) | Role::Group(_));
+    axes.iter().enumerate().find_map(|(i, a)| {
+        let b = axes[..i].iter().find(|b| b.role == a.role && unique(&a.role))?;
+        let (first, second) = (b.coordinate, a.coordinate);
+        Some(
+            Diagnostic::error("types-clash", format!("{first} and {second} have the same geometric type {:?}", a.role))
+                .help(format!("give one of them another: `{second} : CONSTANT = 0;`")),
+        )
+    })
+}
+
+fn no_object() -> Diagnostic {
+    Diagnostic::error("no-object", "nothing here is an object")
+        .help("define one: `gob_ball = 1 - x1**2 - x2**2 - x3**2;`, or name one with --object")
+}

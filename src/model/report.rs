@@ -1,0 +1,154 @@
+//! Questions about definitions: what depends on what, documentation, and the script that `:save` writes. Evaluates nothing.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use rustc_hash::FxHashSet;
+
+use crate::source::SourceMap;
+use crate::syntax::tree::StatementKind;
+
+use super::definition::{Definition, DefinitionId, SystemInForce};
+use super::names;
+use super::session::{Deps, sorted};
+use super::state::{Entry, State};
+
+/// Both directions of a name's dependencies.
+pub fn deps(state: &State, name: &str) -> Option<Deps> {
+    let reads = state.get(name).map(|d| reads(d));
+    let live = state.live();
+    let mut readers = Vec::new();
+    let mut seen: FxHashSet<DefinitionId> = FxHashSet::default();
+    let mut waiting: Vec<Arc<Definition>> = state.readers(name).collect();
+    while let Some(definition) = waiting.pop() {
+        if !live.contains(&definition.id) || !seen.insert(definition.id) {
+            continue;
+        }
+        for output in &definition.outputs {
+            if state.is_current_for(output, &definition) {
+                readers.push(output.to_string());
+                waiting.extend(state.readers(output));
+            }
+        }
+        waiting.extend(state.dependents(definition.id));
+    }
+    match reads {
+        None if readers.is_empty() => None,
+        reads => Some(Deps { reads: reads.unwrap_or_default(), readers: sorted(readers) }),
+    }
+}
+
+/// The names that a definition and those that it continues read, and those of the system in force.
+fn reads(definition: &Arc<Definition>) -> Vec<String> {
+    let mut all = Vec::new();
+    let mut seen = FxHashSet::default();
+    let mut waiting = vec![definition.clone()];
+    while let Some(definition) = waiting.pop() {
+        if seen.insert(definition.id) {
+            all.extend(definition.reads.iter().map(|(n, _)| n.to_string()));
+            waiting.extend(definition.links().cloned());
+        }
+    }
+    sorted(all)
+}
+
+/// The comment above a definition or above the one that it continues.
+pub fn doc(state: &State, name: &str) -> Option<String> {
+    let mut definition = state.get(name)?;
+    loop {
+        if !definition.statement.doc.is_empty() {
+            return Some(definition.statement.doc.to_string());
+        }
+        let base = definition.bases.iter().find(|(n, _)| &**n == name)?;
+        definition = base.1.as_ref()?;
+    }
+}
+
+/// The text of a definition and of what it continues, oldest first.
+pub fn definition(state: &State, sources: &SourceMap, name: &str) -> Option<String> {
+    let mut parts = Vec::new();
+    let mut next = state.get(name);
+    while let Some(definition) = next {
+        parts.push(text(definition, sources));
+        next = definition.bases.iter().find(|(n, _)| &**n == name).and_then(|(_, base)| base.as_ref());
+    }
+    parts.reverse();
+    Some(parts.join("\n"))
+}
+
+fn text(definition: &Definition, sources: &SourceMap) -> String {
+    let text = sources.text(definition.statement.span).trim_end();
+    if text.ends_with(';') { text.to_owned() } else { format!("{text};") }
+}
+
+/// A script that defines the same again: the statements that still matter in their order, with their comments, and the system of
+/// R-functions where it changes.
+pub fn save(state: &State, sources: &SourceMap) -> String {
+    let live = state.live();
+    let mut out = String::new();
+    let mut wanted = SystemInForce::Plain;
+    let mut written = SystemInForce::Plain;
+    for entry in state.program() {
+        let definition = match entry {
+            Entry::Restore(system) => {
+                wanted = system.clone();
+                continue;
+            }
+            Entry::Definition(definition) => definition,
+        };
+        if is_system(definition) {
+            wanted = SystemInForce::Set(definition.clone());
+            continue;
+        }
+        let type_stands = match &definition.statement.kind {
+            StatementKind::Type { subject, .. } => {
+                state.declared(&subject.name).is_some_and(|d| Arc::ptr_eq(&d.definition, definition))
+            }
+            _ => live.contains(&definition.id),
+        };
+        if !type_stands {
+            continue;
+        }
+        if definition.uses_system && !same(&wanted, &written) {
+            write_system(&mut out, &wanted, sources);
+            written = wanted.clone();
+        }
+        write_definition(&mut out, definition, sources);
+    }
+    if !same(&wanted, &written) {
+        write_system(&mut out, &wanted, sources);
+    }
+    out
+}
+
+fn is_system(definition: &Definition) -> bool {
+    definition.outputs.first().is_some_and(|n| names::is_system(n))
+}
+
+fn same(a: &SystemInForce, b: &SystemInForce) -> bool {
+    match (a, b) {
+        (SystemInForce::Plain, SystemInForce::Plain) => true,
+        (SystemInForce::Set(a), SystemInForce::Set(b)) => Arc::ptr_eq(a, b),
+        _ => false,
+    }
+}
+
+fn write_system(out: &mut String, system: &SystemInForce, sources: &SourceMap) {
+    match system {
+        SystemInForce::Plain => out.push_str("r_alpha = 0;\n"),
+        SystemInForce::Set(definition) => write_definition(out, definition, sources),
+    }
+}
+
+fn write_definition(out: &mut String, definition: &Definition, sources: &SourceMap) {
+    let doc = definition.statement.doc.trim();
+    if !doc.is_empty() && !doc.contains('}') {
+        let _ = writeln!(out, "{{ {doc} }}");
+    } else {
+        doc.lines().for_each(|line| {
+            let _ = writeln!(out, "// {}", line.trim());
+        });
+    }
+    out.push_str(&text(definition, sources));
+    out.push('\n');
+}

@@ -1,0 +1,291 @@
+//! The questions themselves: from a session and a [`View`] to a subject, and from a subject to answers.
+
+use std::fmt;
+use std::io::Write;
+
+use serde_json::{Map, Value, json};
+
+use crate::diagnostic::Diagnostic;
+use crate::field::Coordinate;
+use crate::number::{Algebra, Binary};
+use crate::surface::contour::outlines;
+use crate::surface::marching::SurfaceError;
+use crate::surface::measure::{Estimate, MeasureError, measure as measure_solid};
+use crate::vm::Demand;
+
+use super::fields::{Sampled, at_points};
+use super::make::{Workshop, Written, cancelled, make};
+use super::measured::{Dimension, Measured};
+use super::output::Output;
+use super::subject::{Axis, Subject, Time};
+use super::{Options, Timing, View};
+use crate::model::environment::{self, Object, Role};
+use crate::model::session::Session;
+
+/// An answer, or the messages that say why there is none.
+type Asked<T> = Result<T, Vec<Diagnostic>>;
+
+/// Makes an output and writes it through the session's host; `standard` is what `-o -` writes to.
+///
+/// # Errors
+/// Messages whose category decides the exit status.
+pub fn write(session: &mut Session, output: &Output, options: &Options, standard: &mut dyn Write) -> Asked<Written> {
+    let subject = subject(session, &options.view, &options.timing)?;
+    let host = session.host.clone();
+    let shop = Workshop { graph: &session.graph, limits: &session.limits, interrupt: &session.interrupt, host: &*host };
+    make(&shop, &subject, output, options, standard).map_err(|d| vec![d])
+}
+
+/// Measures an object: a solid, or a plane figure.
+///
+/// # Errors
+/// Messages for the user.
+pub fn measure(session: &mut Session, view: &View) -> Asked<Measured> {
+    let subject = subject(session, view, &Timing::default())?;
+    let one = |d: Diagnostic| vec![d];
+    let grid = subject.grid(view.cells, &session.limits).map_err(one)?;
+    let shape = subject.shape(&session.graph, Demand::Sign, &session.limits).map_err(one)?;
+    let interrupt = &session.interrupt;
+    let of = if subject.axes.len() == 3 {
+        let measures = measure_solid(&shape, &grid, &session.limits, interrupt).map_err(|e| one(unmeasured(&e)))?;
+        let triangles = measures.topology.triangles;
+        if triangles == 0 {
+            return Err(one(super::make::empty(&subject, None, Some(measures.report.samples))));
+        }
+        Dimension::Solid(Box::new(measures), triangles)
+    } else {
+        let rough =
+            outlines(&shape, &grid.halved(), &session.limits, interrupt).map_err(|e| one(unmeasured(&e.into())))?;
+        let fine = outlines(&shape, &grid, &session.limits, interrupt).map_err(|e| one(unmeasured(&e.into())))?;
+        if fine.lines.is_empty() {
+            return Err(one(super::make::empty(&subject, None, Some(fine.samples))));
+        }
+        let estimate = |value: f64, other: f64| Estimate { value, error: (value - other).abs() };
+        Dimension::Plane {
+            area: estimate(fine.area(), rough.area()),
+            perimeter: estimate(fine.perimeter(), rough.perimeter()),
+            euler: fine.euler(),
+        }
+    };
+    let bounds = subject.axes.iter().map(|a| (a.coordinate, a.range)).collect();
+    let resolution = grid.cells.into_iter().max().unwrap_or_default();
+    Ok(Measured { object: subject.name.to_string(), bounds, resolution, of })
+}
+
+fn unmeasured(error: &MeasureError) -> Diagnostic {
+    match error {
+        MeasureError::Surface(SurfaceError::Cancelled) => cancelled(),
+        other => Diagnostic::error("not-measured", other.to_string()).category(crate::diagnostic::Category::Result),
+    }
+}
+
+/// The values of an object's function at points, and its derivatives by each coordinate if wanted.
+///
+/// # Errors
+/// Messages for the user; one if a point has fewer numbers than the object has coordinates.
+pub fn sample(session: &mut Session, view: &View, points: &[Vec<f64>], gradient: bool) -> Asked<Vec<Sampled>> {
+    let object = session.object(view.object.as_deref())?;
+    let given = points.iter().map(Vec::len).min().unwrap_or(16);
+    let mut fixed = view.at.clone();
+    for axis in &object.axes {
+        if let Role::Constant(value) = axis.role
+            && !fixed.iter().any(|f| f.0 == axis.coordinate)
+        {
+            fixed.push((axis.coordinate, value));
+        }
+    }
+    let missing = |c: &Coordinate| usize::from(c.0) > given && !fixed.iter().any(|f| f.0 == *c);
+    if let Some(c) = object.uses.iter().find(missing) {
+        let title = format!("`{}` depends on {c}, and a point has {given} numbers", object.name);
+        return Err(vec![
+            Diagnostic::error("short-point", title).help(format!("give each point {} numbers, or --at {c}=...", c.0)),
+        ]);
+    }
+    let subject =
+        Subject { name: object.name.clone(), span: None, node: object.node, axes: Vec::new(), fixed, time: None };
+    match at_points(&subject, &session.graph, points, gradient, &session.limits, &session.interrupt) {
+        Ok(Ok(values)) => Ok(values),
+        Ok(Err(_)) => Err(vec![cancelled()]),
+        Err(told) => Err(vec![told]),
+    }
+}
+
+/// What there is to know of one object without searching for its boundary.
+#[derive(Clone, Debug)]
+pub struct Info {
+    object: Object,
+    operations: usize,
+}
+
+/// What there is to know of each object of a session.
+///
+/// # Errors
+/// Messages for the user, of all objects that fail.
+pub fn info(session: &mut Session) -> Asked<Vec<Info>> {
+    let mut all = Vec::new();
+    let mut told = Vec::new();
+    for name in session.objects() {
+        match session.object(Some(&name)) {
+            Ok(object) => {
+                let operations = crate::field::expand::reachable(&session.graph, object.node).len();
+                all.push(Info { object, operations });
+            }
+            Err(mut errors) => told.append(&mut errors),
+        }
+    }
+    if told.is_empty() { Ok(all) } else { Err(told) }
+}
+
+impl Info {
+    /// As JSON, with the keys that the manual lists.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let object = &self.object;
+        let coordinates: Vec<String> = object.uses.iter().map(|c| c.to_string()).collect();
+        let types: Map<String, Value> =
+            object.axes.iter().map(|a| (a.coordinate.to_string(), json!(role(&a.role)))).collect();
+        let bounds: Map<String, Value> = object
+            .axes
+            .iter()
+            .filter_map(|a| Some((a.coordinate.to_string(), json!([a.range?.0, a.range?.1]))))
+            .collect();
+        json!({
+            "name": &*object.name, "doc": &*object.doc, "coordinates": coordinates, "types": types, "bounds": bounds,
+            "route": "cubes", "operations": self.operations,
+        })
+    }
+}
+
+impl fmt::Display for Info {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let object = &self.object;
+        let axes: Vec<String> = object
+            .axes
+            .iter()
+            .map(|a| match a.range {
+                Some((lo, hi)) => format!("{} : {} from {lo} to {hi}", a.coordinate, role(&a.role)),
+                None => format!("{} : {}", a.coordinate, role(&a.role)),
+            })
+            .collect();
+        let axes = if axes.is_empty() { "no coordinates".into() } else { axes.join(", ") };
+        write!(f, "{}: {axes}; {} operations", object.name, self.operations)?;
+        if let Some(line) = object.doc.lines().map(str::trim).find(|l| !l.is_empty()) {
+            write!(f, "\n  {line}")?;
+        }
+        Ok(())
+    }
+}
+
+fn role(role: &Role) -> String {
+    match role {
+        Role::X => "X".into(),
+        Role::Y => "Y".into(),
+        Role::Z => "Z".into(),
+        Role::T => "T".into(),
+        Role::V => "V".into(),
+        Role::W => "W".into(),
+        Role::C => "C".into(),
+        Role::Constant(value) => format!("CONSTANT = {value}"),
+        Role::Group(values) => format!("G = {values:?}"),
+    }
+}
+
+/// The object that a view names as a subject: axes from types and ranges, sections from `at`, frames from time.
+fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Subject> {
+    let mut object = session.object(view.object.as_deref())?;
+    override_axes(&mut object, view);
+    let mut told = Vec::new();
+    let mut fixed = Vec::new();
+    let mut time = None;
+    for axis in object.axes.iter().filter(|a| !a.is_space()) {
+        let steps = axis.steps(session.limits.frames);
+        match (&axis.role, steps.first()) {
+            (Role::Constant(value), _) => fixed.push((axis.coordinate, *value)),
+            (Role::T, Some(&first)) => {
+                fixed.push((axis.coordinate, first));
+                let values = frames(&steps, axis.range, timing.frames);
+                time = Some(Time { coordinate: axis.coordinate, values });
+            }
+            (Role::T, None) => told.push(no_time(&object, axis.coordinate)),
+            (other, _) => told.push(not_shown(&object, axis.coordinate, other)),
+        }
+    }
+    if let [level] = object.levels[..] {
+        if level != 0.0 {
+            let level = session.graph.constant(level);
+            object.node = session.graph.binary(Binary::Sub, object.node, level);
+        }
+    } else {
+        told.push(several_levels(&object));
+    }
+    let bounds = object.bounds().unwrap_or_else(|d| {
+        told.push(d);
+        Vec::new()
+    });
+    if !told.is_empty() {
+        return Err(told);
+    }
+    let axes = object
+        .space()
+        .iter()
+        .zip(bounds)
+        .map(|(a, (lo, hi))| Axis { coordinate: a.coordinate, range: [lo, hi] })
+        .collect();
+    let span = session.place(&object.name);
+    Ok(Subject { name: object.name.clone(), span, node: object.node, axes, fixed, time })
+}
+
+/// Lets `--at` and `--bounds` win over the script.
+fn override_axes(object: &mut Object, view: &View) {
+    for &(c, lo, hi) in &view.bounds {
+        match object.axes.iter_mut().find(|a| a.coordinate == c) {
+            Some(axis) => axis.range = Some((lo, hi)),
+            None => {
+                if let Some(role) = environment::default_role(c).filter(|r| matches!(r, Role::X | Role::Y | Role::Z)) {
+                    let range = Some((lo, hi));
+                    object.axes.push(environment::Axis { coordinate: c, role, declared: false, range, delta: None });
+                }
+            }
+        }
+    }
+    for &(c, value) in &view.at {
+        if let Some(axis) = object.axes.iter_mut().find(|a| a.coordinate == c) {
+            axis.role = Role::Constant(value);
+        }
+    }
+}
+
+/// The moments of the frames: the script's, or as many as were asked for over the same range.
+fn frames(steps: &[f64], range: Option<(f64, f64)>, asked: Option<usize>) -> Vec<f64> {
+    match (asked, range) {
+        (Some(count), Some((lo, hi))) if count > 1 => {
+            let (from, to) = if steps.first() > steps.last() { (hi, lo) } else { (lo, hi) };
+            (0..count).map(|k| from + (to - from) * (k as f64 / (count - 1) as f64)).collect()
+        }
+        (Some(1), _) => steps[..1].to_vec(),
+        _ => steps.to_vec(),
+    }
+}
+
+fn no_time(object: &Object, c: Coordinate) -> Diagnostic {
+    let title = format!("`{}` moves with {c}, which has no range", object.name);
+    Diagnostic::error("no-time", title)
+        .help(format!("add to the script: {c}min = 0; {c}max = 1; {c}_delta = 0.1;"))
+        .help(format!("or show one moment: --at {c}=0"))
+}
+
+fn not_shown(object: &Object, c: Coordinate, shown: &Role) -> Diagnostic {
+    let title = format!("{c} of `{}` has the type {}, which this output cannot show yet", object.name, role(shown));
+    Diagnostic::error("type-not-shown", title)
+        .help(format!("fix it at one value: --at {c}=0, or `{c} : CONSTANT = 0;`"))
+}
+
+fn several_levels(object: &Object) -> Diagnostic {
+    let title =
+        format!("`{}` has {} levels, which this output cannot show together yet", object.name, object.levels.len());
+    Diagnostic::error("type-not-shown", title).help(format!(
+        "choose one: `{} : CONSTANT = {};`",
+        object.name,
+        object.levels.first().unwrap_or(&0.0)
+    ))
+}

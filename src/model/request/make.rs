@@ -1,0 +1,342 @@
+//! Makes what an output asks for and hands it to the host, whole or not at all: meshes, pictures, animations, sampled fields.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use crate::diagnostic::{Category, Diagnostic};
+use crate::export;
+use crate::field::Graph;
+use crate::host::Host;
+use crate::interrupt::{Cancelled, Interrupt};
+use crate::limits::Limits;
+use crate::picture::Image;
+use crate::picture::field::sample;
+use crate::surface::check::{Topology, check};
+use crate::surface::marching::{Extraction, SurfaceError, extract};
+use crate::surface::mesh::Mesh;
+use crate::surface::sampler::Counters;
+use crate::vm::{Demand, Shape};
+
+use super::output::{Format, Kind, Output, Target, numbered};
+use super::subject::Subject;
+use super::{Options, pictures};
+
+/// What was written, and what there is to say of it.
+#[derive(Debug, Default)]
+pub struct Written {
+    /// The files, in order.
+    pub files: Vec<PathBuf>,
+    /// A line for each result: what it is, what it cost.
+    pub lines: Vec<String>,
+    /// Notes and warnings.
+    pub notes: Vec<Diagnostic>,
+}
+
+/// What the work needs of the session, without the session.
+pub struct Workshop<'a> {
+    /// The graph in which the subject stands.
+    pub graph: &'a Graph,
+    /// Bounds of memory, frames and sizes.
+    pub limits: &'a Limits,
+    /// Asked and told by every long loop.
+    pub interrupt: &'a Interrupt,
+    /// Where files go.
+    pub host: &'a dyn Host,
+}
+
+/// The diagnostic of a computation that was stopped.
+#[must_use]
+pub fn cancelled() -> Diagnostic {
+    Diagnostic::error("cancelled", "stopped; nothing was written").category(Category::Cancelled)
+}
+
+impl From<Cancelled> for Diagnostic {
+    fn from(_: Cancelled) -> Self {
+        cancelled()
+    }
+}
+
+/// Makes one output of a subject.
+///
+/// # Errors
+/// A diagnostic whose category decides the exit status; then nothing was written but the earlier frames of a series.
+pub fn make(
+    shop: &Workshop<'_>,
+    subject: &Subject,
+    output: &Output,
+    options: &Options,
+    standard: &mut dyn Write,
+) -> Result<Written, Diagnostic> {
+    let mut making = Making { shop, subject, output, options, standard, written: Written::default() };
+    match output.format.kind() {
+        Kind::Mesh => making.meshes()?,
+        Kind::Picture => making.pictures()?,
+        Kind::Animation => making.animation()?,
+        Kind::Samples => making.samples()?,
+    }
+    Ok(making.written)
+}
+
+struct Making<'a> {
+    shop: &'a Workshop<'a>,
+    subject: &'a Subject,
+    output: &'a Output,
+    options: &'a Options,
+    standard: &'a mut dyn Write,
+    written: Written,
+}
+
+impl Making<'_> {
+    fn meshes(&mut self) -> Result<(), Diagnostic> {
+        self.need(3, "a mesh")?;
+        let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
+        let shape = self.shape(Demand::Sign)?;
+        for (n, moment) in self.moments().into_iter().enumerate() {
+            let begun = Instant::now();
+            let extraction = extract(&self.subject.at(&shape, moment), &grid, self.shop.limits, self.shop.interrupt)
+                .map_err(unmade)?;
+            let report = &extraction.report;
+            self.undefined(&report.counters);
+            if extraction.mesh.is_empty() {
+                return Err(empty(self.subject, Some(moment), Some(report.samples)));
+            }
+            let topology = check(&extraction.mesh).map_err(|fault| {
+                Diagnostic::error("mesh-fault", format!("the mesh of `{}` has a fault: {fault}", self.subject.name))
+                    .category(Category::Result)
+                    .help("nothing was written; another --resolution usually avoids it")
+            })?;
+            self.cut(&extraction);
+            self.line(n, &mesh_line(&extraction, &topology), begun);
+            let format = self.output.format;
+            self.put(n, &mut |out| write_mesh(format, &extraction.mesh, out))?;
+        }
+        Ok(())
+    }
+
+    fn pictures(&mut self) -> Result<(), Diagnostic> {
+        let moments = self.moments();
+        let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
+        for (n, moment) in moments.into_iter().enumerate() {
+            let begun = Instant::now();
+            let picture = artist.picture(moment, self.shop.interrupt)?;
+            self.undefined(&picture.counters);
+            if picture.hits == 0 {
+                return Err(empty(self.subject, Some(moment), None));
+            }
+            self.line(n, &picture_line(&picture.image, &picture.counters), begun);
+            self.put(n, &mut |out| export::png::write(&picture.image, &mut { out }))?;
+        }
+        Ok(())
+    }
+
+    fn animation(&mut self) -> Result<(), Diagnostic> {
+        let moments = self.subject.moments();
+        if self.subject.time.is_none() {
+            let title = format!("nothing of `{}` moves: an animation of one frame", self.subject.name);
+            let help = "give a coordinate the type T and a range: `x4 : T; x4min = 0; x4max = 1; x4_delta = 0.1;`";
+            self.written.notes.push(Diagnostic::warning("no-motion", title).help(help));
+        }
+        let begun = Instant::now();
+        let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
+        let (mut frames, mut counters, mut hits) = (Vec::new(), Counters::default(), 0);
+        for &moment in &moments {
+            let picture = artist.picture(moment, self.shop.interrupt)?;
+            let bytes = moments.len() * Image::memory(picture.image.width, picture.image.height);
+            self.subject.within_memory(bytes as u64, self.shop.limits)?;
+            hits += picture.hits;
+            counters.add(picture.counters);
+            frames.push(picture.image);
+        }
+        self.undefined(&counters);
+        if hits == 0 {
+            return Err(empty(self.subject, None, None));
+        }
+        let what = format!("{} frames, {}", frames.len(), picture_line(&frames[0], &counters));
+        self.line(0, &what, begun);
+        let delay = 1.0 / self.options.timing.fps.clamp(0.01, 100.0);
+        self.put(0, &mut |out| export::gif::write(&frames, delay, &mut { out }))
+    }
+
+    fn samples(&mut self) -> Result<(), Diagnostic> {
+        let cells = self.subject.along(self.options.view.cells)?;
+        let space: Vec<(f64, f64)> = self.subject.bounds().iter().map(|[lo, hi]| (*lo, *hi)).collect();
+        if space.is_empty() {
+            return self.need(3, "a sampled field");
+        }
+        let longest = space.iter().map(|(lo, hi)| hi - lo).fold(0.0, f64::max);
+        let samples: f64 = space.iter().map(|(lo, hi)| (hi - lo) / longest * cells as f64 + 2.0).product();
+        self.subject.within_memory((4.0 * samples) as u64, self.shop.limits)?;
+        let shape = self.shape(Demand::Value)?;
+        for (n, moment) in self.moments().into_iter().enumerate() {
+            let begun = Instant::now();
+            let field = sample(&self.subject.at(&shape, moment), &space, cells, self.shop.interrupt)?;
+            self.undefined(&field.counters);
+            let size: Vec<String> = field.size.iter().map(ToString::to_string).collect();
+            self.line(n, &format!("{} samples", size.join(" x ")), begun);
+            let written = export::nrrd::Field {
+                size: &field.size,
+                origin: &field.origin,
+                spacing: &field.spacing,
+                samples: export::nrrd::Samples::Singles(&field.samples),
+            };
+            self.put(n, &mut |out| export::nrrd::write(&written, export::nrrd::Encoding::Gzip, &mut { out }))?;
+        }
+        Ok(())
+    }
+
+    fn shape(&self, demand: Demand) -> Result<Shape, Diagnostic> {
+        self.subject.shape(self.shop.graph, demand, self.shop.limits)
+    }
+
+    fn is_series(&self) -> bool {
+        matches!(self.output.target, Target::Series { .. }) || self.output.format.kind() == Kind::Animation
+    }
+
+    /// The moments that this output shows: all frames, or the first.
+    fn moments(&mut self) -> Vec<f64> {
+        let mut moments = self.subject.moments();
+        if self.is_series() {
+            return moments;
+        }
+        if let Some(time) = self.subject.time.as_ref().filter(|_| moments.len() > 1) {
+            let c = time.coordinate;
+            let title = format!("this shows {c} = {}, the first of {} frames", moments[0], moments.len());
+            let help = format!("--at {c}=... shows another moment; a name with {{n}} writes all frames");
+            self.written.notes.push(Diagnostic::note("first-frame", title).help(help));
+        }
+        moments.truncate(1);
+        moments
+    }
+
+    fn need(&self, axes: usize, what: &str) -> Result<(), Diagnostic> {
+        if self.subject.axes.len() == axes {
+            return Ok(());
+        }
+        let have: Vec<String> = self.subject.axes.iter().map(|a| a.coordinate.to_string()).collect();
+        let name = &self.subject.name;
+        let title = format!("{what} needs {axes} axes; `{name}` has {} here: {}", have.len(), have.join(", "));
+        let help =
+            "give the missing coordinate a range (`x3min = -1; x3max = 1;` or --bounds x3=-1:1), or ask for a .png";
+        Err(Diagnostic::error("dimension", title).help(help))
+    }
+
+    /// Writes the n-th result to its file or to standard output.
+    fn put(&mut self, n: usize, content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> Result<(), Diagnostic> {
+        self.shop.interrupt.tick()?;
+        let path = match &self.output.target {
+            Target::Standard => return to_standard(self.standard, content),
+            Target::File(path) => path.clone(),
+            Target::Series { before, after } => numbered(before, after, n, self.subject.moments().len()),
+        };
+        self.shop.host.write_whole(Path::new(&path), content).map_err(|error| error.diagnostic())?;
+        self.written.files.push(path);
+        Ok(())
+    }
+
+    fn line(&mut self, n: usize, what: &str, begun: Instant) {
+        let frame = match &self.subject.time {
+            Some(time) if self.is_series() && self.output.format.kind() != Kind::Animation => {
+                format!("frame {n} ({} = {}): ", time.coordinate, time.values[n])
+            }
+            _ => String::new(),
+        };
+        self.written.lines.push(format!("{frame}{what}, {:.0} ms", begun.elapsed().as_secs_f64() * 1e3));
+    }
+
+    fn undefined(&mut self, counters: &Counters) {
+        if counters.undefined == 0 || self.written.notes.iter().any(|d| d.code == "undefined-points") {
+            return;
+        }
+        let place: Vec<String> = counters.example.iter().flatten().map(|c| format!("{c:.6}")).collect();
+        let title = format!("`{}` is undefined at {} of the evaluated points", self.subject.name, counters.undefined);
+        let fact = format!("one of them is ({}); undefined points count as outside", place.join(", "));
+        self.written.notes.push(Diagnostic::warning("undefined-points", title).fact(fact));
+    }
+
+    fn cut(&mut self, extraction: &Extraction) {
+        let mut faces = Vec::new();
+        for (axis, sides) in self.subject.axes.iter().zip(extraction.report.cut) {
+            for (side, (cut, which)) in sides.into_iter().zip(["min", "max"]).enumerate() {
+                if cut {
+                    faces.push(format!("{}{which} = {}", axis.coordinate, axis.range[side]));
+                }
+            }
+        }
+        if faces.is_empty() || self.written.notes.iter().any(|d| d.code == "cut-by-space") {
+            return;
+        }
+        let title = format!("the modelling space cuts `{}` at {}", self.subject.name, faces.join(", "));
+        let help = "the mesh is capped there; widen the space if the object was to be whole";
+        self.written.notes.push(Diagnostic::note("cut-by-space", title).help(help));
+    }
+}
+
+/// An object without a point: exit status 1, with what may be the reason.
+pub(super) fn empty(subject: &Subject, moment: Option<f64>, samples: Option<u64>) -> Diagnostic {
+    let name = &subject.name;
+    let when = match (&subject.time, moment) {
+        (Some(time), Some(moment)) => format!(" at {} = {moment}", time.coordinate),
+        _ => String::new(),
+    };
+    let space: Vec<String> =
+        subject.axes.iter().map(|a| format!("{} {} to {}", a.coordinate, a.range[0], a.range[1])).collect();
+    let title = format!("`{name}` is empty{when}: its function is nowhere >= 0 in the modelling space");
+    let mut diagnostic = Diagnostic::error("empty-object", title)
+        .category(Category::Result)
+        .fact(format!("the modelling space is {}", space.join(", ")))
+        .help("inside is where the function is >= 0: if it is written with inside negative, put `-` before it")
+        .help("if the object lies elsewhere or is smaller than a cell, give --bounds or a larger --resolution");
+    if let Some(samples) = samples {
+        diagnostic = diagnostic.fact(format!("{samples} sample points were decided"));
+    }
+    match subject.span {
+        Some(span) => diagnostic.at(span, "this object"),
+        None => diagnostic,
+    }
+}
+
+fn to_standard(
+    standard: &mut dyn Write,
+    content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Diagnostic> {
+    match content(standard).and_then(|()| standard.flush()) {
+        Ok(()) => Ok(()),
+        // A reader that has seen enough is no error.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => {
+            let title = format!("standard output could not be written: {error}");
+            Err(Diagnostic::error("not-written", title).category(Category::File))
+        }
+    }
+}
+
+fn unmade(error: SurfaceError) -> Diagnostic {
+    match error {
+        SurfaceError::Cancelled => cancelled(),
+        other => Diagnostic::error("no-mesh", other.to_string()).category(Category::Result),
+    }
+}
+
+fn mesh_line(extraction: &Extraction, topology: &Topology) -> String {
+    let Counters { points, boxes, .. } = extraction.report.counters;
+    format!(
+        "{} triangles, Euler characteristic {}, {points} points and {boxes} boxes evaluated of {} samples",
+        topology.triangles, topology.euler, extraction.report.samples
+    )
+}
+
+fn picture_line(image: &Image, counters: &Counters) -> String {
+    format!(
+        "{} x {} pixels, {} points and {} boxes evaluated",
+        image.width, image.height, counters.points, counters.boxes
+    )
+}
+
+fn write_mesh(format: Format, mesh: &Mesh, mut out: &mut dyn Write) -> io::Result<()> {
+    match format {
+        Format::Obj => export::obj::write(mesh, &mut out),
+        Format::Ply => export::ply::write(mesh, &mut out),
+        _ => export::stl::write(mesh, &mut out),
+    }
+}

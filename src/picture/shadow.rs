@@ -1,0 +1,82 @@
+//! Where the key light reaches: the depths at which its parallel rays meet the object first. Evaluates nothing after it is made.
+
+use super::camera::Camera;
+use super::extent::Extent;
+use super::raycast::Space;
+use super::rays::{Scene, cast};
+use crate::interrupt::{Cancelled, Interrupt};
+use crate::surface::sampler::Counters;
+use crate::vm::Shape;
+
+/// Depths of first hits, seen from the light.
+#[derive(Clone, Debug)]
+pub struct Shadows {
+    camera: Camera,
+    side: usize,
+    depths: Vec<f32>,
+    /// The distance of neighbouring rays.
+    texel: f64,
+}
+
+/// Rays around a point over which the edge of a shadow is softened.
+const SOFT: f64 = 2.5;
+
+impl Shadows {
+    /// Casts `side` x `side` parallel rays from the light into the space; `towards` points to the light. Also what that cost.
+    ///
+    /// # Errors
+    /// [`Cancelled`] soon after the interrupt was set.
+    pub fn cast(
+        shape: &Shape,
+        space: Space,
+        towards: [f64; 3],
+        side: usize,
+        interrupt: &Interrupt,
+    ) -> Result<(Self, Counters), Cancelled> {
+        let camera = Camera::parallel(towards.map(|v| -v), &Extent::whole(space));
+        let scene = Scene { camera, space, rays: [side, side], tile: 8 };
+        let depth = |hit: &Option<super::rays::Hit>| hit.map_or(f32::INFINITY, |hit| hit.depth as f32);
+        let (tiles, counters) = cast(shape, &scene, |tile| tile.hits.iter().map(depth).collect::<Vec<_>>(), interrupt)?;
+        let mut depths = vec![f32::INFINITY; side * side];
+        for (from, size, tile) in tiles {
+            for (row, tile) in tile.chunks_exact(size[0]).enumerate() {
+                depths[(from[1] + row) * side + from[0]..][..size[0]].copy_from_slice(tile);
+            }
+        }
+        let texel = 2.0 * camera.base[0].max(camera.base[1]) / side as f64;
+        Ok((Self { camera, side, depths, texel }, counters))
+    }
+
+    /// How much of the light reaches a point of the boundary with that normal, 0 to 1. `facing` is the cosine of the angle between the
+    /// normal and the light; the point is moved off the boundary by more where the light grazes it, so that no face shades itself.
+    #[must_use]
+    pub fn lit(&self, point: [f64; 3], normal: [f64; 3], facing: f64) -> f32 {
+        let off = self.texel * (SOFT + 1.0) * (1.0 - facing * facing).max(0.0).sqrt();
+        let offset: [f64; 3] = std::array::from_fn(|k| point[k] + off * normal[k] - self.camera.eye[k]);
+        let along = |axis: [f64; 3]| offset.iter().zip(axis).map(|(a, b)| a * b).sum::<f64>();
+        let depth = (along(self.camera.forward) - 1.5 * self.texel) as f32;
+        let place = |v: f64| 0.5 * (v + 1.0) * self.side as f64 - 0.5;
+        let x = place(along(self.camera.right) / self.camera.base[0]);
+        let y = place(-along(self.camera.up) / self.camera.base[1]);
+        let (mut lit, mut all) = (0.0, 0.0);
+        for j in self.around(y) {
+            for i in self.around(x) {
+                let weight = tent(x, i) * tent(y, j);
+                all += weight;
+                lit += if self.depths[j * self.side + i] >= depth { weight } else { 0.0 };
+            }
+        }
+        if all > 0.0 { (lit / all) as f32 } else { 1.0 }
+    }
+
+    /// The rays near a place.
+    fn around(&self, place: f64) -> std::ops::Range<usize> {
+        let first = (place - SOFT).ceil().clamp(0.0, self.side as f64) as usize;
+        let last = (place + SOFT).floor().clamp(-1.0, self.side as f64 - 1.0) + 1.0;
+        first..last as usize
+    }
+}
+
+fn tent(place: f64, index: usize) -> f64 {
+    (1.0 - (place - index as f64).abs() / SOFT).max(0.0)
+}

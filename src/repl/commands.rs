@@ -1,0 +1,346 @@
+//! The commands of the prompt: ONE table, from which `:help`, completion and near names derive.
+
+use std::path::Path;
+
+use crate::cli::arguments::Making;
+use crate::cli::{make, session, status::Status, text};
+use crate::host::{Disk, Host};
+use crate::model::request::{Kind, Output};
+use crate::{builtins, cli};
+
+use super::Repl;
+
+/// One command.
+#[derive(Debug)]
+pub struct Command {
+    /// Its name, without the colon.
+    pub name: &'static str,
+    /// Its arguments, as `:help` shows them.
+    pub arguments: &'static str,
+    /// What it does, in one line.
+    pub help: &'static str,
+    /// What its argument is, for completion.
+    pub completes: Argument,
+    action: fn(&mut Repl, &str) -> Flow,
+}
+
+/// What an argument names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Argument {
+    /// Nothing that could be completed.
+    None,
+    /// A name of the program or of a built-in.
+    Name,
+    /// A file.
+    File,
+    /// A command.
+    Command,
+}
+
+/// Whether the prompt goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// It worked; the session did not change.
+    Go,
+    /// It worked, and the session changed: the line belongs into the journal.
+    Changed,
+    /// It failed.
+    Failed(Status),
+    /// The user leaves.
+    Leave,
+}
+
+/// All commands, in the order of `:help`.
+pub static TABLE: &[Command] = &[
+    command("help", "[NAME]", "this list, or what NAME is", Argument::Command, help),
+    command("list", "", "every definition in one line", Argument::None, list),
+    command("doc", "NAME", "the documentation and the signature of NAME", Argument::Name, doc),
+    command("deps", "NAME", "what NAME reads, and what reads NAME", Argument::Name, deps),
+    command("undo", "", "take back the last input", Argument::None, undo),
+    command("redo", "", "take back the last :undo", Argument::None, redo),
+    command("load", "FILE", "run a program here", Argument::File, load),
+    command("save", "FILE", "write all definitions as a program that runs", Argument::File, save),
+    command("mesh", "FILE [OPTION...]", "write a mesh: .stl .obj .ply", Argument::File, mesh),
+    command("render", "FILE [OPTION...]", "write a picture or an animation: .png .gif", Argument::File, render),
+    command("measure", "[NAME]", "volume, area, centroid and more of an object", Argument::Name, measure),
+    command(
+        "set",
+        "[OPTION VALUE]",
+        "keep an option for :mesh, :render and :measure, as in :set resolution 64",
+        Argument::None,
+        set,
+    ),
+    command("at", "[xN=VALUE]...", "look at a section; without a value, at the whole", Argument::None, at),
+    command("recover", "", "run the inputs of a session that was killed", Argument::None, recover),
+    command("quit", "", "leave", Argument::None, |_, _| Flow::Leave),
+];
+
+const fn command(
+    name: &'static str,
+    arguments: &'static str,
+    help: &'static str,
+    completes: Argument,
+    action: fn(&mut Repl, &str) -> Flow,
+) -> Command {
+    Command { name, arguments, help, completes, action }
+}
+
+/// The command of that name, or the only one that starts so.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Command> {
+    if let Some(exact) = TABLE.iter().find(|command| command.name == name) {
+        return Some(exact);
+    }
+    let mut starting = TABLE.iter().filter(|command| !name.is_empty() && command.name.starts_with(name));
+    starting.next().filter(|_| starting.next().is_none())
+}
+
+/// Does what a line that starts with a colon says.
+pub fn run(repl: &mut Repl, line: &str) -> Flow {
+    let line = line.trim().trim_start_matches(':');
+    let (name, argument) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+    let argument = argument.trim().trim_end_matches(';').trim_end();
+    match find(name) {
+        Some(command) if command.arguments.is_empty() && !argument.is_empty() => {
+            repl.refuse(&format!("`:{}` takes no argument", command.name))
+        }
+        Some(command)
+            if !command.arguments.is_empty() && !command.arguments.starts_with('[') && argument.is_empty() =>
+        {
+            repl.refuse(&format!("`:{} {}` needs its argument", command.name, command.arguments))
+        }
+        Some(command) => (command.action)(repl, argument),
+        None => repl.refuse(&unknown(name)),
+    }
+}
+
+fn unknown(name: &str) -> String {
+    match text::near(name, TABLE.iter().map(|command| command.name)) {
+        Some(other) => format!("there is no command `:{name}`; did you mean `:{other}`?"),
+        None => format!("there is no command `:{name}`; `:help` lists them"),
+    }
+}
+
+fn help(repl: &mut Repl, name: &str) -> Flow {
+    let name = name.trim_start_matches(':');
+    if name.is_empty() {
+        return repl.show(&overview());
+    }
+    match find(name).filter(|_| !repl.session.is_defined(name)) {
+        Some(command) => repl.show(&line(command, 0)),
+        None => doc(repl, name),
+    }
+}
+
+fn overview() -> String {
+    let width = TABLE.iter().map(|command| usage(command).len()).max().unwrap_or(0);
+    let lines: Vec<String> = TABLE.iter().map(|command| line(command, width)).collect();
+    format!(
+        "A statement defines, an expression shows its value. `NAME?` explains a name, `NAME??` shows its definition,\n\
+         `_` is the last value. Ctrl-C cancels, Ctrl-D leaves.\n\n{}",
+        lines.join("\n")
+    )
+}
+
+fn usage(command: &Command) -> String {
+    format!(":{} {}", command.name, command.arguments).trim_end().to_owned()
+}
+
+fn line(command: &Command, width: usize) -> String {
+    format!("{:width$}  {}", usage(command), command.help)
+}
+
+/// `:doc NAME`, `NAME?`.
+pub fn doc(repl: &mut Repl, name: &str) -> Flow {
+    if let Some(words) = repl.session.doc(name) {
+        return repl.show(&words);
+    }
+    match builtins::find(name) {
+        Some(builtin) => repl.show(&text::explain(builtin)),
+        None => unknown_name(repl, name),
+    }
+}
+
+/// `NAME??`.
+pub fn definition(repl: &mut Repl, name: &str) -> Flow {
+    match repl.session.definition(name) {
+        Some(source) => repl.show(&source),
+        None => doc(repl, name),
+    }
+}
+
+fn unknown_name(repl: &mut Repl, name: &str) -> Flow {
+    let names = repl.names();
+    let candidates = builtins::all().flat_map(builtins::Builtin::names).map(|known: &str| known);
+    let near = text::near(name, names.iter().map(String::as_str).chain(candidates))
+        .map(|other| format!("; did you mean `{other}`?"))
+        .unwrap_or_default();
+    repl.refuse(&format!("`{name}` is not defined{near}"))
+}
+
+fn list(repl: &mut Repl, _: &str) -> Flow {
+    let lines: Vec<String> = repl.session.definitions().into_iter().map(|definition| definition.to_string()).collect();
+    if lines.is_empty() { repl.show("nothing is defined yet") } else { repl.show(&lines.join("\n")) }
+}
+
+fn deps(repl: &mut Repl, name: &str) -> Flow {
+    let Some(deps) = repl.session.deps(name) else { return unknown_name(repl, name) };
+    let words = |names: &[String]| if names.is_empty() { "nothing".to_owned() } else { names.join(", ") };
+    repl.show(&format!("{name} reads {}\nread by {}", words(&deps.reads), words(&deps.readers)))
+}
+
+fn undo(repl: &mut Repl, _: &str) -> Flow {
+    match repl.session.undo() {
+        Some(text) => repl.changed(&format!("took back: {}", first_line(&text))),
+        None => repl.refuse("there is nothing to take back"),
+    }
+}
+
+fn redo(repl: &mut Repl, _: &str) -> Flow {
+    match repl.session.redo() {
+        Some(text) => repl.changed(&format!("again: {}", first_line(&text))),
+        None => repl.refuse("there is nothing to do again"),
+    }
+}
+
+fn first_line(text: &str) -> String {
+    let mut lines = text.trim().lines();
+    let first = lines.next().unwrap_or("").to_owned();
+    if lines.next().is_some() { first + " ..." } else { first }
+}
+
+fn load(repl: &mut Repl, file: &str) -> Flow {
+    match session::read_text(Path::new(unquoted(file))) {
+        Ok(text) => repl.feed(unquoted(file), &text, crate::syntax::Mode::Script),
+        Err(error) => Flow::Failed(repl.console.file_error(&error)),
+    }
+}
+
+fn save(repl: &mut Repl, file: &str) -> Flow {
+    let (path, text) = (Path::new(unquoted(file)), repl.session.save());
+    match Disk.write_whole(path, &mut |out| out.write_all(text.as_bytes())) {
+        Ok(()) => repl.told(&format!("wrote {}", path.display())),
+        Err(error) => Flow::Failed(repl.console.file_error(&error)),
+    }
+}
+
+fn unquoted(file: &str) -> &str {
+    file.strip_prefix('"').and_then(|file| file.strip_suffix('"')).unwrap_or(file)
+}
+
+fn mesh(repl: &mut Repl, argument: &str) -> Flow {
+    make_file(repl, argument, |kind| kind == Kind::Mesh, ":mesh writes .stl .obj .ply; :render writes pictures")
+}
+
+fn render(repl: &mut Repl, argument: &str) -> Flow {
+    let wanted = |kind| kind == Kind::Picture || kind == Kind::Animation;
+    make_file(repl, argument, wanted, ":render writes .png .gif; :mesh writes meshes")
+}
+
+fn make_file(repl: &mut Repl, argument: &str, wanted: fn(Kind) -> bool, otherwise: &str) -> Flow {
+    let (file, options) =
+        argument.split_once(" --").map_or((argument, ""), |(file, _)| (file, &argument[file.len()..]));
+    let making = match repl.making.with(options) {
+        Ok(making) => making,
+        Err(words) => return repl.refuse(&words),
+    };
+    match Output::parse(unquoted(file.trim()), None) {
+        Err(words) => repl.refuse(&words),
+        Ok(output) if !wanted(output.format.kind()) => repl.refuse(otherwise),
+        Ok(output) => {
+            let made = make::make(&repl.console, &mut repl.session, &making, &output);
+            repl.ended(made)
+        }
+    }
+}
+
+fn measure(repl: &mut Repl, name: &str) -> Flow {
+    let mut making = repl.making.clone();
+    if !name.is_empty() {
+        making.subject.object = Some(name.to_owned());
+    }
+    let made = cli::inspect::measure_one(&repl.console, &mut repl.session, &making, false);
+    repl.ended(made)
+}
+
+fn set(repl: &mut Repl, argument: &str) -> Flow {
+    if argument.is_empty() {
+        return repl.show(&settings(&repl.making));
+    }
+    let option = argument.trim_start_matches('-').replacen('=', " ", usize::from(!argument.contains(' ')));
+    match repl.making.with(&format!("--{option}")) {
+        Ok(making) => {
+            repl.making = making;
+            Flow::Changed
+        }
+        Err(words) => repl.refuse(&words),
+    }
+}
+
+fn settings(making: &Making) -> String {
+    let mut lines = Vec::new();
+    let mut say = |name: &str, value: Option<String>| lines.extend(value.map(|value| format!("{name} {value}")));
+    say("object", making.subject.object.clone());
+    say("resolution", making.fineness.resolution.map(|n| n.to_string()));
+    say("cell", making.fineness.cell.map(|length| length.to_string()));
+    say("size", making.look.size.map(|size| format!("{}x{}", size.width, size.height)));
+    say("view", making.look.view.clone());
+    say("camera", making.look.camera.map(|[around, above]| format!("{around},{above}")));
+    say("palette", making.look.palette.clone());
+    say("supersample", making.look.supersample.map(|n| n.to_string()));
+    say("frames", making.motion.frames.map(|n| n.to_string()));
+    say("fps", making.motion.fps.map(|n| n.to_string()));
+    for section in &making.subject.at {
+        say("at", Some(format!("x{}={}", section.coordinate, section.value)));
+    }
+    for extent in &making.subject.bounds {
+        say("bounds", Some(format!("x{}={}:{}", extent.coordinate, extent.lo, extent.hi)));
+    }
+    if lines.is_empty() { "every option has its default".into() } else { lines.join("\n") }
+}
+
+fn at(repl: &mut Repl, argument: &str) -> Flow {
+    let sections = argument.split([' ', ',']).filter(|word| !word.is_empty()).map(cli::values::section);
+    match sections.collect::<Result<Vec<_>, _>>() {
+        Ok(sections) => {
+            repl.making.subject.at = sections;
+            Flow::Changed
+        }
+        Err(words) => repl.refuse(&words),
+    }
+}
+
+fn recover(repl: &mut Repl, _: &str) -> Flow {
+    let Some(lost) = repl.lost.take() else { return repl.refuse("no session was lost") };
+    for input in &lost.inputs {
+        repl.take(input);
+    }
+    let count = lost.inputs.len();
+    lost.forget();
+    repl.told(&format!("{count} inputs are back"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_is_found_by_its_beginning() {
+        let name = |beginning: &str| find(beginning).map(|command| command.name);
+        assert_eq!(name("undo"), Some("undo"));
+        assert_eq!(name("mes"), Some("mesh"));
+        assert_eq!(name("me"), None, "`me` is mesh and measure");
+        assert_eq!([name(""), name("nonsense")], [None, None]);
+    }
+
+    #[test]
+    fn options_are_laid_over_each_other() {
+        let making = Making::default().with("--resolution 64 --view top").expect("options");
+        assert_eq!(making.fineness.resolution, Some(64));
+        let making = making.with("--cell 0.5").expect("options");
+        assert_eq!((making.fineness.cell, making.fineness.resolution), (Some(0.5), None));
+        assert_eq!(settings(&making), "cell 0.5\nview top");
+        let words = making.with("--resolution much").expect_err("no number");
+        assert!(words.contains("`much` is not a whole number"), "{words}");
+    }
+}
