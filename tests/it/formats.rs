@@ -247,8 +247,8 @@ fn apng_holds_each_frame_and_its_time() {
 /// The mesh of a torus, as it is extracted for export.
 fn torus() -> Mesh {
     let ring = |x: Ex, y: Ex, z: Ex| 0.16 - ((x.squared() + y.squared()).sqrt() - 1.).squared() - z.squared();
-    let grid = Grid::new(&[[-1.5, 1.5]; 3], 40).unwrap();
-    extract(&shape_of(ring, 3, Demand::Sign), &grid, &Limits::default(), &Interrupt::default()).unwrap().mesh
+    let grid = Grid::new(&[[-1.5, 1.5]; 3], 40).expect("a grid");
+    extract(&shape_of(ring, 3, Demand::Sign), &grid, &Limits::default(), &Interrupt::default()).expect("a surface").mesh
 }
 
 /// The volume inside, by tetrahedra about the origin.

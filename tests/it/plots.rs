@@ -433,15 +433,11 @@ fn axes_stand_behind_a_solid() {
         let image = behind(&picture, &camera, space, &names).unwrap();
         look(&image, &format!("space-{name}"));
         let margin = (image.width - 480) / 2;
-        for j in 0..360 {
-            for i in 0..480 {
-                let kept = image.pixel(i + margin, j + margin) == picture.pixel(i, j);
-                assert!(
-                    kept || picture.pixel(i, j)[3] == 0 || !(60..420).contains(&i) || !(60..300).contains(&j),
-                    "{name} {i} {j}"
-                );
-            }
-        }
+        // The outline's own edges may run along the solid where it touches its box.
+        let solid: Vec<_> =
+            (0..360 * 480).map(|k| (k % 480, k / 480)).filter(|&(i, j)| picture.pixel(i, j)[3] > 0).collect();
+        let lost = solid.iter().filter(|&&(i, j)| image.pixel(i + margin, j + margin) != picture.pixel(i, j)).count();
+        assert!(lost * 100 < solid.len(), "{name}: {lost} of {} pixels", solid.len());
         // Frames, marks and numbers are dark; the ground around the picture and the faces are not.
         let dark = |i: usize, j: usize| image.pixel(i, j)[0] < 90;
         let around = |i: usize, j: usize| {
