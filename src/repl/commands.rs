@@ -156,6 +156,7 @@ pub fn doc(repl: &mut Repl, name: &str) -> Flow {
         return repl.show(&words);
     }
     match builtins::find(name) {
+        _ if repl.session.is_defined(name) => repl.show(&repl.session.describe(name)),
         Some(builtin) => repl.show(&text::explain(builtin)),
         None => unknown_name(repl, name),
     }
