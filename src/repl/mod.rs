@@ -163,7 +163,7 @@ impl Repl {
             Some((name, false)) => commands::doc(self, name),
             Some((name, true)) => commands::definition(self, name),
             None if is_comment(trimmed) => {
-                self.comments = documented + "\n";
+                self.comments = documented.trim_end().to_owned() + "\n";
                 return Flow::Go;
             }
             None => {

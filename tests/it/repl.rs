@@ -125,6 +125,8 @@ fn on_a_terminal() {
     terminal.send_line("nonsense(").expect("typed");
     terminal.expect("nonsense(").expect("the line");
     terminal.send(ControlCode::EndOfText).expect("typed");
+    terminal.expect("\x1b[?2004l").expect("the line is left");
+    terminal.expect("yont>").expect("a prompt");
     terminal.send_line("100 + 23").expect("typed");
     answer(&mut terminal, "123");
     terminal.send(ControlCode::EndOfTransmission).expect("typed");
