@@ -11,8 +11,10 @@ use tempfile::TempDir;
 
 use super::cli::{BALL, folder, run};
 
+type Words = &'static [&'static str];
+
 /// What is typed, what standard output and standard error say, and the status.
-const PIPED: &[(&str, &str, &[&str], &[&str], i32)] = &[
+const PIPED: &[(&str, &str, Words, Words, i32)] = &[
     ("a value", "1 + 2*3\n", &["7"], &[], 0),
     ("a definition and its value", "a = 4;\na**2\n", &["16"], &[], 0),
     ("a definition propagates", "b = a + 1;\na = 4;\nb\na = 5;\nb\n", &["5\n", "6\n"], &["not defined yet"], 0),
