@@ -157,6 +157,10 @@ pub fn doc(repl: &mut Repl, name: &str) -> Flow {
     }
     match builtins::find(name) {
         Some(builtin) => repl.show(&text::explain(builtin)),
+        None if repl.session.is_defined(name) => {
+            let line = repl.session.describe(name);
+            repl.show(&format!("{line}\n    No comment stands right above its definition."))
+        }
         None => unknown_name(repl, name),
     }
 }
