@@ -29,7 +29,8 @@ pub struct Cli {
 
 /// What stands below the options; the formats come from their one list.
 fn after_help() -> String {
-    let formats = FORMATS.iter().map(|(_, extension, what, _)| format!("  .{extension:<5} {what}\n")).collect::<String>();
+    let formats =
+        FORMATS.iter().map(|(_, extension, what, _)| format!("  .{extension:<5} {what}\n")).collect::<String>();
     format!(
         "Without a program, `yont` is a prompt. The extension of OUT decides what is made:\n{formats}\
          A name with n in braces makes one file a frame, numbered from 0 with at least three digits; `-` is standard\n\

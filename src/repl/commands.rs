@@ -156,7 +156,12 @@ pub fn doc(repl: &mut Repl, name: &str) -> Flow {
         return repl.show(&words);
     }
     match builtins::find(name) {
+        _ if repl.session.is_defined(name) => repl.show(&repl.session.describe(name)),
         Some(builtin) => repl.show(&text::explain(builtin)),
+        None if repl.session.is_defined(name) => {
+            let line = repl.session.describe(name);
+            repl.show(&format!("{line}\n    No comment stands right above its definition."))
+        }
         None => unknown_name(repl, name),
     }
 }
@@ -179,7 +184,7 @@ fn unknown_name(repl: &mut Repl, name: &str) -> Flow {
 }
 
 fn list(repl: &mut Repl, _: &str) -> Flow {
-    let lines: Vec<String> = repl.session.definitions().into_iter().map(|definition| definition.to_string()).collect();
+    let lines = repl.session.definitions();
     if lines.is_empty() { repl.show("nothing is defined yet") } else { repl.show(&lines.join("\n")) }
 }
 

@@ -7,13 +7,14 @@ mod make;
 pub mod measured;
 pub mod output;
 mod pictures;
-mod subject;
+pub mod subject;
 
-pub use ask::{Info, info, measure, sample, write};
+pub use ask::{Info, info, measure, sample, subject, write};
 pub use fields::Sampled;
 pub use make::Written;
 pub use measured::Measured;
 pub use output::{FORMATS, Format, Kind, Output, Target};
+pub use subject::Subject;
 
 use crate::field::Coordinate;
 
