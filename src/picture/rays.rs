@@ -12,7 +12,7 @@ use crate::vm::{Program, Shape};
 use super::camera::Camera;
 use super::frustum::{Frustum, Ray};
 use super::raycast::Space;
-use super::search::{BETWEEN, Bracket, COARSE, SAMPLES, Segment, Summit, is_open};
+use super::search::{BETWEEN, Bracket, COARSE, ENDS, SAMPLES, Segment, Summit, is_far, is_open};
 
 /// Cells of a picture (its pixels, say) and the space that they look into.
 #[derive(Clone, Copy, Debug)]
@@ -310,7 +310,12 @@ impl<'a, T, F> Caster<'a, T, F> {
         self.brackets.clear();
         self.summits.clear();
         let all: Vec<usize> = (0..self.segments.len()).collect();
-        self.fill(&all, &COARSE, program, sampler);
+        self.fill(&all, &ENDS, program, sampler);
+        if is_far(&self.samples) {
+            self.remember();
+            return;
+        }
+        self.fill(&all, &[3], program, sampler);
         let open: Vec<usize> =
             all.into_iter().filter(|&n| !self.sort(n, &COARSE) && is_open(&self.samples[n])).collect();
         if !open.is_empty() {
@@ -321,6 +326,11 @@ impl<'a, T, F> Caster<'a, T, F> {
                 }
             }
         }
+        self.remember();
+    }
+
+    /// Keeps the last samples of the segments.
+    fn remember(&mut self) {
         for (segment, values) in self.segments.iter().zip(&self.samples) {
             self.known[segment.ray] = (segment.to, values[SAMPLES - 1]);
         }

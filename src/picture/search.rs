@@ -5,6 +5,9 @@
 pub(super) const SAMPLES: usize = 7;
 
 /// The samples that are taken first.
+pub(super) const ENDS: [usize; 2] = [0, 6];
+
+/// Those and the one that is taken next.
 pub(super) const COARSE: [usize; 3] = [0, 3, 6];
 
 /// The other ones.
@@ -93,10 +96,25 @@ fn reach(values: &[f64]) -> Option<(usize, f64)> {
     Some((top, reach))
 }
 
-/// Whether the first samples, all outside, leave it open that the ray meets the object between them.
+/// Whether the first samples, all outside, leave it open that the ray meets the object between them: it does if one of them
+/// is near to it or a concave function could come near, near by how much the samples differ.
 pub(super) fn is_open(values: &[f64; SAMPLES]) -> bool {
     let coarse = COARSE.map(|step| values[step]);
-    coarse.iter().any(|v| v.is_nan()) || reach(&coarse).is_some_and(|(_, reach)| reach >= 0.0 || reach.is_nan())
+    let spread =
+        coarse.iter().fold(f64::NEG_INFINITY, |a, &b| a.max(b)) - coarse.iter().fold(f64::INFINITY, |a, &b| a.min(b));
+    coarse.iter().any(|v| v.is_nan())
+        || reach(&coarse).is_some_and(|(top, reach)| reach.max(coarse[top]) + spread >= 0.0)
+}
+
+/// Fewer rays tell too little about how much the function changes in a box.
+const ENOUGH: usize = 16;
+
+/// Whether rays through a box, by the samples at their ends, are so far outside everywhere that nothing is to be looked for between them:
+/// by more than twice what the function changes from any of the samples to any other.
+pub(super) fn is_far(samples: &[[f64; SAMPLES]]) -> bool {
+    let ends = || samples.iter().flat_map(|values| ENDS.map(|step| values[step]));
+    let (least, most) = ends().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+    samples.len() >= ENOUGH && ends().all(f64::is_finite) && most < -2.0 * (most - least)
 }
 
 /// The golden section.
