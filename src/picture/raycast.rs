@@ -33,6 +33,10 @@ pub struct Style {
     pub shadow: f32,
     /// The colours at the top and at the bottom of the background.
     pub background: [[u8; 3]; 2],
+    /// Whether there is no background: what the object leaves free is transparent.
+    pub transparent: bool,
+    /// The colour of the object, instead of the palette's.
+    pub solid: Option<[u8; 3]>,
 }
 
 impl Default for Style {
@@ -43,6 +47,8 @@ impl Default for Style {
             palette: Palette::Plain,
             shadow: 0.6,
             background: [[0xfb, 0xfc, 0xfd], [0xdf, 0xe4, 0xea]],
+            transparent: false,
+            solid: None,
         }
     }
 }
@@ -81,7 +87,7 @@ pub fn raycast(
     // Tiles are whole pixels.
     let tile = if fine == 3 { 6 } else { 8 };
     let scene = Scene { camera: *camera, space, rays: [width * fine, height * fine], tile };
-    let lights = Lights::new(camera, style.palette.solid());
+    let lights = Lights::new(camera, style.solid.unwrap_or(style.palette.solid()));
     let (shadows, mut counters) = if style.shadow > 0.0 {
         let side = width.max(height).clamp(256, 2048);
         let (shadows, cost) = Shadows::cast(shape, space, lights.key(), side, interrupt)?;
@@ -89,7 +95,15 @@ pub fn raycast(
     } else {
         (None, Counters::default())
     };
-    let brush = Brush { scene, lights, shadows, shadow: style.shadow.min(1.0), backdrop: backdrop(style), fine };
+    let brush = Brush {
+        scene,
+        lights,
+        shadows,
+        shadow: style.shadow.min(1.0),
+        backdrop: backdrop(style),
+        fine,
+        clear: style.transparent,
+    };
     let (tiles, cost) = cast(shape, &scene, |tile| brush.paint(tile), interrupt)?;
     counters.add(cost);
     let mut image = Image::new(width, height, [0; 3]);
@@ -127,6 +141,7 @@ struct Brush {
     shadow: f32,
     backdrop: Vec<Light>,
     fine: usize,
+    clear: bool,
 }
 
 impl Brush {
@@ -137,27 +152,33 @@ impl Brush {
         let mut pixels = Vec::with_capacity(4 * columns * rows);
         for j in 0..rows {
             let behind = self.backdrop[tile.from[1] / fine + j];
-            let empty = behind.map(encode);
+            let [r, g, b] = behind.map(encode);
+            let empty = if self.clear { [0; 4] } else { [r, g, b, 255] };
             for i in 0..columns {
-                let [r, g, b] = if tile.hits.is_empty() { empty } else { self.pixel(&tile, [i, j], behind) };
-                pixels.extend([r, g, b, 255]);
+                pixels.extend(if tile.hits.is_empty() { empty } else { self.pixel(&tile, [i, j], behind) });
             }
         }
         (pixels, tile.hits.iter().flatten().count() as u64)
     }
 
-    /// The mean light of a pixel's rays. Each is cut at white first, so that a gleam does not make its edge jagged.
-    fn pixel(&self, tile: &Tile<'_>, [i, j]: [usize; 2], behind: Light) -> [u8; 3] {
+    /// The mean light of a pixel's rays and its opacity. Each is cut at white first, so that a gleam does not make its edge jagged.
+    fn pixel(&self, tile: &Tile<'_>, [i, j]: [usize; 2], behind: Light) -> [u8; 4] {
         let fine = self.fine;
-        let mut sum = [0.0_f32; 3];
+        let (mut sum, mut rays) = ([0.0_f32; 3], 0_u32);
         for y in j * fine..(j + 1) * fine {
             for x in i * fine..(i + 1) * fine {
                 let hit = tile.hits[y * tile.size[0] + x];
+                if self.clear && hit.is_none() {
+                    continue;
+                }
+                rays += 1;
                 let light = hit.map_or(behind, |hit| self.light(&hit, tile.from[0] + x, tile.from[1] + y));
                 (0..3).for_each(|k| sum[k] += light[k].min(1.0));
             }
         }
-        sum.map(|light| encode(light / (fine * fine) as f32))
+        let [r, g, b] = sum.map(|light| encode(light / rays.max(1) as f32));
+        let all = (fine * fine) as f32;
+        [r, g, b, (255.0 * rays as f32 / all).round() as u8]
     }
 
     /// The light of a hit of ray (i, j).
