@@ -121,7 +121,7 @@ impl Making<'_> {
 
     /// The checked boundary; none if it is empty.
     fn mesh(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Option<Mesh>, String, u64), Diagnostic> {
-        let shape = self.subject.at_moment(shape, moment);
+        let shape = self.subject.at(shape, moment);
         let extraction = extract(&shape, grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
         let samples = extraction.report.samples;
         self.undefined(&extraction.report.counters);
@@ -169,7 +169,7 @@ impl Making<'_> {
             let begun = Instant::now();
             let mut slices = Vec::new();
             for (member, [r, g, b, _]) in members.iter().zip(&colours) {
-                let shape = self.subject.at_moment(&member.shape, moment);
+                let shape = self.subject.at(&member.shape, moment);
                 let found = outlines(&shape, &grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
                 self.undefined(&found.counters);
                 let colour = (!single && self.options.slices.is_none()).then_some([*r, *g, *b]);

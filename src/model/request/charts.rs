@@ -99,7 +99,7 @@ impl<'a> Chart<'a> {
                 (self.draw_curves(curves, *range, title), counters, hits)
             }
             Kind::Levels { shape, palette } => {
-                let (field, counters) = self.field(&self.subject.at(shape, place), interrupt)?;
+                let (field, counters) = self.field(&self.subject.placed(shape, place), interrupt)?;
                 let map = self.frame(title, *palette);
                 let hits = map.levels.iter().map(|&level| field.lines(level).len() as u64).sum();
                 (contours::draw(&field, &map, self.size[0], self.size[1]), counters, hits)
@@ -118,7 +118,7 @@ impl<'a> Chart<'a> {
     ) -> Result<(Option<Image>, Counters, u64), Diagnostic> {
         let (mut fields, mut counters) = (Vec::new(), Counters::default());
         for member in &self.members {
-            let (field, cost) = self.field(&self.subject.at(&member.shape, place), interrupt)?;
+            let (field, cost) = self.field(&self.subject.placed(&member.shape, place), interrupt)?;
             counters.add(cost);
             fields.push(field);
         }
@@ -134,7 +134,7 @@ impl<'a> Chart<'a> {
         let count = self.size[0].max(LEAST_SAMPLES);
         let (mut curves, mut counters) = (Vec::new(), Counters::default());
         for member in &self.members {
-            let (curve, cost) = graph::of(&self.subject.at(&member.shape, place), lo, hi, count, interrupt)?;
+            let (curve, cost) = graph::of(&self.subject.placed(&member.shape, place), lo, hi, count, interrupt)?;
             counters.add(cost);
             curves.push(curve);
         }

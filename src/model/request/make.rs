@@ -150,7 +150,7 @@ impl Making<'_> {
         let shape = self.shape(Demand::Value)?;
         for (n, moment) in self.moments().into_iter().enumerate() {
             let begun = Instant::now();
-            let field = sample(&self.subject.at_moment(&shape, moment), &space, cells, self.shop.interrupt)?;
+            let field = sample(&self.subject.at(&shape, moment), &space, cells, self.shop.interrupt)?;
             self.undefined(&field.counters);
             let size: Vec<String> = field.size.iter().map(ToString::to_string).collect();
             self.line(n, &format!("{} samples", size.join(" x ")), begun);

@@ -110,7 +110,7 @@ impl<'a> Artist<'a> {
             Scene::Solid(solid) => solid.picture(place, interrupt),
             Scene::Chart(chart) => chart.picture(place, title, interrupt),
             Scene::Plane { shape, window, size, fill, axes } => {
-                let plot = plot(&self.subject.at(shape, place), *window, *size, *fill, interrupt)?;
+                let plot = plot(&self.subject.placed(shape, place), *window, *size, *fill, interrupt)?;
                 let image = if *axes { self.with_axes(&plot.image, title)? } else { plot.image };
                 Ok(Picture { image, counters: plot.counters, hits: u64::from(plot.met) })
             }

@@ -62,15 +62,14 @@ impl<'a> Solid<'a> {
             usage("view", format!("no view is called `{}`", picture.view))
                 .help(format!("choose one of {}, or azimuth,elevation in degrees: `30,20`", names.join(", ")))
         })?;
-        // The lowest level encloses the others.
-        let outermost = &members[0].shape;
-        let mut extent: Option<Extent> = None;
-        for place in places {
-            let here = Extent::of(&subject.at(outermost, place), space, shop.interrupt)?;
-            extent = Some(extent.map_or_else(|| here.clone(), |all| all.join(&here)));
-        }
-        let extent = extent.unwrap_or_else(|| Extent::nothing(space, 3));
-        let camera = framed(&view, &extent, &style);
+        let camera = if picture.axes {
+            // The numbers stand at the edges of the space, all of which must be seen.
+            Camera::framing(&view, &Extent::whole(space), size[0] as f64 / size[1].max(1) as f64)
+        } else {
+            // The lowest level encloses the others.
+            let extent = extent(subject, &members[0].shape, space, places, shop.interrupt)?;
+            framed(&view, &extent, &style)
+        };
         Ok(Self { subject, members, space, camera, style, legend, axes: picture.axes })
     }
 
@@ -82,7 +81,7 @@ impl<'a> Solid<'a> {
         let (mut image, mut counters, mut hits): (Option<Image>, _, _) = (None, Counters::default(), 0);
         // From within: each level lies before those above it, wherever one looks from.
         for member in self.members.iter().rev() {
-            let shape: Shape = self.subject.at(&member.shape, place);
+            let shape: Shape = self.subject.placed(&member.shape, place);
             let solid = self.legend.as_ref().map(|legend| legend.colour(member.value));
             let picture = raycast(&shape, self.space, &self.camera, &Style { solid, ..self.style }, interrupt)?;
             counters.add(picture.counters);
@@ -104,6 +103,25 @@ impl<'a> Solid<'a> {
         }
         Ok(Picture { image, counters, hits })
     }
+}
+
+/// A hull of the object at all the places.
+fn extent(
+    subject: &Subject,
+    shape: &Shape,
+    space: Space,
+    places: &[Place],
+    interrupt: &Interrupt,
+) -> Result<Extent, Diagnostic> {
+    let mut all: Option<Extent> = None;
+    for place in places {
+        let here = Extent::of(&subject.placed(shape, place), space, interrupt)?;
+        all = Some(match all {
+            Some(all) => all.join(&here),
+            None => here,
+        });
+    }
+    Ok(all.unwrap_or_else(|| Extent::nothing(space, 3)))
 }
 
 /// Lays a picture over another so that the other shows through.

@@ -192,7 +192,7 @@ impl Subject {
             let member = |place: &Place| Member {
                 label: label(place),
                 value: place.last().map_or(0.0, |last| last.1),
-                shape: self.at(&shape, place),
+                shape: self.placed(&shape, place),
                 marks: place.iter().map(|(c, v)| (c.to_string(), *v)).collect(),
             };
             return Ok(sections.iter().map(member).collect());
@@ -219,7 +219,7 @@ impl Subject {
 
     /// The same shape, sharing its program, at another place.
     #[must_use]
-    pub fn at(&self, shape: &Shape, place: &[(Coordinate, f64)]) -> Shape {
+    pub fn placed(&self, shape: &Shape, place: &[(Coordinate, f64)]) -> Shape {
         let mut shape = shape.clone();
         for (coordinate, value) in place {
             if let Some(k) = self.fixed.iter().position(|f| f.0 == *coordinate) {
@@ -231,9 +231,9 @@ impl Subject {
 
     /// The same shape at another moment.
     #[must_use]
-    pub fn at_moment(&self, shape: &Shape, moment: f64) -> Shape {
+    pub fn at(&self, shape: &Shape, moment: f64) -> Shape {
         let place: Place = self.time.iter().map(|time| (time.coordinate, moment)).collect();
-        self.at(shape, &place)
+        self.placed(shape, &place)
     }
 
     /// The moments of a series: one a frame, or the one moment of what does not move.
