@@ -19,7 +19,8 @@ use super::session::{Event, Outcome, Session};
 use super::state::{Declared, Entry, Kept};
 use super::value::{Scalar, Value};
 
-/// A statement to be worked off, or the end of an included file.
+/// A statement to be worked off, or the ends of an included file. Nearly all are statements, so a box would save nothing.
+#[allow(clippy::large_enum_variant)]
 enum Item {
     Statement(Statement),
     Enter,
@@ -311,7 +312,7 @@ impl<'s> Input<'s> {
         let (outputs, own) = match &statement.kind {
             StatementKind::Define { name, parameters, .. } => {
                 let reads = said.reads.iter().any(|(n, _)| *n == name.name) && parameters.is_none();
-                (vec![name.name.clone()], reads.then(|| vec![name.name.clone()]).unwrap_or_default())
+                (vec![name.name.clone()], if reads { vec![name.name.clone()] } else { Vec::new() })
             }
             StatementKind::Element { name, .. } => (vec![name.name.clone()], vec![name.name.clone()]),
             StatementKind::Type { .. } => (Vec::new(), Vec::new()),

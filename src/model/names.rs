@@ -47,10 +47,10 @@ pub fn assigned(block: &[Statement]) -> Vec<Name> {
 fn collect_assigned(block: &[Statement], names: &mut Vec<Name>, seen: &mut FxHashSet<Name>) {
     for statement in block {
         match &statement.kind {
-            StatementKind::Define { name, .. } | StatementKind::Element { name, .. } => {
-                if !is_system(&name.name) && seen.insert(name.name.clone()) {
-                    names.push(name.name.clone());
-                }
+            StatementKind::Define { name, .. } | StatementKind::Element { name, .. }
+                if !is_system(&name.name) && seen.insert(name.name.clone()) =>
+            {
+                names.push(name.name.clone());
             }
             StatementKind::If { then, otherwise, .. } => {
                 collect_assigned(then, names, seen);

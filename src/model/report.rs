@@ -15,7 +15,7 @@ use super::state::{Entry, State};
 
 /// Both directions of a name's dependencies.
 pub fn deps(state: &State, name: &str) -> Option<Deps> {
-    let reads = state.get(name).map(|d| reads(d));
+    let reads = state.get(name).map(reads);
     let live = state.live();
     let mut readers = Vec::new();
     let mut seen: FxHashSet<DefinitionId> = FxHashSet::default();

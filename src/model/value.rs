@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use crate::field::{Coordinates, Graph, NodeId};
-use crate::number::{Algebra, Binary, Ternary, Unary};
+use crate::number::{Algebra, Binary, Reals, Ternary, Unary};
 use crate::syntax::tree::{Name, Parameter};
+use crate::vm::reference;
 
 use super::definition::Definition;
 
@@ -48,10 +49,14 @@ impl Scalar {
         }
     }
 
-    /// A node as a scalar: constants become numbers.
+    /// A node as a scalar: constants become numbers, and so does what a section leaves without coordinates.
     #[must_use]
     pub fn of(graph: &Graph, id: NodeId) -> Self {
-        graph.number(id).map_or(Self::Node(id), Self::Number)
+        match graph.number(id) {
+            Some(value) => Self::Number(value),
+            None if graph.coordinates(id).is_empty() => Self::Number(reference::eval(&mut Reals, graph, id, &[])),
+            None => Self::Node(id),
+        }
     }
 }
 

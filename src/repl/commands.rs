@@ -156,6 +156,7 @@ pub fn doc(repl: &mut Repl, name: &str) -> Flow {
         return repl.show(&words);
     }
     match builtins::find(name) {
+        _ if repl.session.is_defined(name) => repl.show(&repl.session.describe(name)),
         Some(builtin) => repl.show(&text::explain(builtin)),
         None => unknown_name(repl, name),
     }
@@ -179,7 +180,7 @@ fn unknown_name(repl: &mut Repl, name: &str) -> Flow {
 }
 
 fn list(repl: &mut Repl, _: &str) -> Flow {
-    let lines: Vec<String> = repl.session.definitions().into_iter().map(|definition| definition.to_string()).collect();
+    let lines = repl.session.definitions();
     if lines.is_empty() { repl.show("nothing is defined yet") } else { repl.show(&lines.join("\n")) }
 }
 

@@ -23,7 +23,7 @@ use crate::host::{FileError, Reason, reason, state_folder};
 use crate::limits::Limits;
 use crate::model::{Event, Session};
 use crate::syntax::Mode;
-use crate::syntax::scan::Scanner;
+use crate::syntax::scan::{Scanner, TokenKind};
 
 use commands::Flow;
 use helper::{Assistant, is_incomplete};
@@ -41,6 +41,8 @@ pub struct Repl {
     inputs: usize,
     /// The last value, as an expression: what `_` stands for.
     last: Option<String>,
+    /// Comments that were typed as inputs of their own: they document what comes next.
+    comments: String,
 }
 
 /// Runs the prompt until the user leaves, or, without a terminal, until the input ends.
@@ -48,7 +50,8 @@ pub fn start(prompt: Prompt) -> Status {
     let terminal = std::io::stdin().is_terminal();
     let memory = Memory::in_folder(if terminal { state_folder() } else { None });
     let Prompt { session, console, signals, making, .. } = prompt;
-    let repl = Repl { session, console, signals, making, memory, lost: None, inputs: 0, last: None };
+    let repl =
+        Repl { session, console, signals, making, memory, lost: None, inputs: 0, last: None, comments: String::new() };
     if terminal { repl.converse() } else { repl.listen() }
 }
 
@@ -153,19 +156,24 @@ impl Repl {
     fn take(&mut self, input: &str) -> Flow {
         self.signals.interrupt.reset();
         let trimmed = input.trim();
+        let documented = std::mem::take(&mut self.comments) + input;
         let flow = match question(trimmed) {
             _ if trimmed.is_empty() => return Flow::Go,
             _ if trimmed.starts_with(':') => commands::run(self, trimmed),
             Some((name, false)) => commands::doc(self, name),
             Some((name, true)) => commands::definition(self, name),
+            None if is_comment(trimmed) => {
+                self.comments = documented.trim_end().to_owned() + "\n";
+                return Flow::Go;
+            }
             None => {
                 self.inputs += 1;
                 let name = format!("<input {}>", self.inputs);
-                self.feed(&name, input, Mode::Prompt)
+                self.feed(&name, &documented, Mode::Prompt)
             }
         };
         if flow == Flow::Changed {
-            let kept = self.memory.accepted(input);
+            let kept = self.memory.accepted(if trimmed.starts_with(':') { trimmed } else { &documented });
             self.remember(kept);
         }
         flow
@@ -238,6 +246,11 @@ impl Repl {
             Ok(failed) | Err(failed) => Flow::Failed(failed),
         }
     }
+}
+
+/// Whether a text holds comments and nothing else.
+fn is_comment(text: &str) -> bool {
+    Scanner::new(text, 0, text.len()).all(|token| token.kind == TokenKind::Comment)
 }
 
 /// A value as an expression: a number by its digits, anything else by what was typed, which means the same again.

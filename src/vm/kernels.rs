@@ -4,6 +4,7 @@
 //! Each result is computed into a spare block, which then changes places with the block of its slot: so a result may take the slot of
 //! an operand, and the loops never write where they read (they would fall back to scalar code).
 
+#[cfg(not(debug_assertions))]
 use multiversion::multiversion;
 
 use super::program::{Op, Program, Value};
@@ -110,10 +111,14 @@ macro_rules! each {
     };
 }
 
-/// The function that runs programs with one kind of number, for each instruction set.
+/// The function that runs programs with one kind of number, for each instruction set. Builds without optimisation get the portable one
+/// alone: the others would take most of the time of compiling the package.
 macro_rules! runner {
     ($name:ident, $kind:ty) => {
-        #[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+        #[cfg_attr(
+            not(debug_assertions),
+            multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))
+        )]
         pub(crate) fn $name(
             program: &Program,
             store: &mut Store<$kind>,

@@ -125,7 +125,9 @@ fn statuses_are_those_of_the_manual() {
 
 #[test]
 fn the_extension_decides_what_is_made() {
-    let cases: &[(&[&str], &[(&str, &[u8])])] = &[
+    /// A file and how it begins.
+    type Made = (&'static str, &'static [u8]);
+    let cases: &[(&[&str], &[Made])] = &[
         (&["ball.geo", "-o", "a.stl"], &[("a.stl", b"")]),
         (&["ball.geo", "-o", "a.obj", "-o", "b.ply"], &[("a.obj", b""), ("b.ply", b"ply\n")]),
         (&["ball.geo", "-o", "a.png"], &[("a.png", b"\x89PNG")]),

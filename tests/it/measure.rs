@@ -2,9 +2,14 @@
 
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
+use yont::model::Value;
+use yont::model::request::measured::Dimension;
+use yont::model::request;
+use yont::model::value::Scalar;
 use yont::number::Ternary;
 use yont::surface::contour::{Contour, outlines};
 use yont::surface::measure::Integrals;
+use yont::syntax::Mode;
 use yont::surface::{Grid, Measures, Mesh, SurfaceError, extract, measure};
 use yont::vm::Demand;
 
@@ -190,4 +195,114 @@ fn a_solid_has_no_outline() {
         extract(&plane, &space, &Limits::default(), &Interrupt::default()).err(),
         Some(SurfaceError::Dimension(2, 3))
     );
+}
+
+/// Name, script, volume, Euler characteristic, whether it is smooth.
+type Text = (&'static str, &'static str, f64, i64, bool);
+
+const SPACE: &str = "x1min = -1.4; x1max = 1.4; x2min = -1.3; x2max = 1.3; x3min = -1.2; x3max = 1.2;";
+
+/// The known solids as texts.
+const TEXTS: &[Text] = &[
+    ("ball", "gob_g = 1 - x1**2 - x2**2 - x3**2;", 4.0 / 3.0 * PI, 2, true),
+    (
+        "box",
+        "pob_box(a, b, c) = (a - x1 & a + x1) & (b - x2 & b + x2) & (c - x3 & c + x3); gob_g = pob_box(0.81, 0.62, 0.53);",
+        8.0 * 0.81 * 0.62 * 0.53,
+        2,
+        false,
+    ),
+    ("torus", "gob_g = 0.3**2 - (SQRT(x1**2 + x2**2) - 0.8)**2 - x3**2;", 2.0 * PI * PI * 0.8 * 0.09, 0, true),
+    ("ellipsoid", "gob_g = 1 - x1**2 - (x2/0.8)**2 - (x3/0.6)**2;", 4.0 / 3.0 * PI * 0.48, 2, true),
+    ("Steinmetz solid", "gob_g = 1 - x1**2 - x2**2 & 1 - x1**2 - x3**2;", 16.0 / 3.0, 2, false),
+    ("capped cylinder", "gob_g = 0.7**2 - x1**2 - x2**2 & 0.8**2 - x3**2;", PI * 0.49 * 1.6, 2, false),
+    (
+        "twisted bar",
+        "tr_twist(g, k) = g AT (x1*COS(k*x3) + x2*SIN(k*x3), x2*COS(k*x3) - x1*SIN(k*x3));
+         gob_bar = 0.5 - ABS(x1) & 0.3 - ABS(x2) & 0.9 - ABS(x3); gob_g = tr_twist(gob_bar, 1.5);",
+        8.0 * 0.5 * 0.3 * 0.9,
+        2,
+        false,
+    ),
+    (
+        "sheared ball",
+        "gob_ball = 1 - x1**2 - x2**2 - x3**2; gob_g = gob_ball AT (x1 = x1 - 0.5*x3);",
+        4.0 / 3.0 * PI,
+        2,
+        true,
+    ),
+];
+
+/// Volume, Euler characteristic and evaluated points of a script's object.
+fn of_text(script: &str, resolution: usize) -> (f64, i64, u64) {
+    let mut session = crate::session::session();
+    let outcome = session.input("solid.geo", &format!("{script}\n{SPACE}"), Mode::Script);
+    assert!(outcome.accepted, "{script}\n{}", crate::session::messages(&outcome));
+    let view = request::View { cells: request::Cells::Along(resolution), ..request::View::default() };
+    let measured = request::measure(&mut session, &view).unwrap_or_else(|told| panic!("{script}\n{told:?}"));
+    let Dimension::Solid(measures, _) = measured.of else { panic!("{script} is no solid") };
+    (measures.volume.value, measures.topology.euler, measures.report.counters.points)
+}
+
+#[test]
+fn scripts_measure_as_their_closed_forms_and_cost_as_their_surface() {
+    for &(name, script, volume, euler, smooth) in TEXTS {
+        let found = [64, 128].map(|resolution| of_text(script, resolution));
+        let errors = found.map(|(value, ..)| value / volume - 1.0);
+        let (ratio, growth) = (errors[0] / errors[1], found[1].2 as f64 / found[0].2 as f64);
+        eprintln!(
+            "{name}: volume {:.6}, {:+.4} % of {volume:.6}, Euler characteristic {}, error ratio {ratio:.2}, {growth:.2} times the points",
+            found[1].0,
+            100.0 * errors[1],
+            found[1].1
+        );
+        assert!(errors[1].abs() < 0.003, "{name}: {} instead of {volume}", found[1].0);
+        assert_eq!(found.map(|f| f.1), [euler; 2], "{name}");
+        assert!(growth <= 4.6, "{name}: {found:?}");
+        assert!(!smooth || (3.5..4.5).contains(&ratio), "{name}: errors {errors:?}");
+    }
+}
+
+/// [P95] 5 tells of 0.2e-15 at a boundary point of one of many spheres joined by (4).
+#[test]
+fn the_union_of_ten_thousand_spheres_is_zero_on_their_boundaries() {
+    let script = "n = 10000; r = 0.1;
+        gob_all = UNION(i = 1 TO n, r**2 - (x1 - 10*RANDOM(1, i))**2 - (x2 - 10*RANDOM(2, i))**2 - (x3 - 10*RANDOM(3, i))**2);
+        c = ARRAY(i = 1 TO n, ARRAY(k = 1 TO 3, 10*RANDOM(k, i)));";
+    let mut session = crate::session::session();
+    let outcome = session.input("spheres.geo", script, Mode::Script);
+    assert!(outcome.accepted, "{}", crate::session::messages(&outcome));
+    let Some(Ok(Value::Array(rows))) = session.value("c") else { panic!("c is an array") };
+    let number = |value: &Value| match value {
+        Value::Scalar(Scalar::Number(n)) => *n,
+        other => panic!("{other:?}"),
+    };
+    let centres: Vec<Vec<f64>> = rows
+        .items()
+        .iter()
+        .map(|row| match row {
+            Value::Array(row) => row.items().iter().map(number).collect(),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    // The points of the first two hundred spheres in some direction that lie in no other sphere.
+    let points: Vec<Vec<f64>> = (0..200)
+        .map(|i| {
+            let (a, b) = (i as f64, 0.5 + i as f64 * 0.7);
+            let way = [a.sin() * b.cos(), a.sin() * b.sin(), a.cos()];
+            (0..3).map(|d| centres[i][d] + 0.1 * way[d]).collect::<Vec<f64>>()
+        })
+        .enumerate()
+        .filter(|(i, p)| {
+            let within = |c: &Vec<f64>| (0..3).map(|d| (p[d] - c[d]).powi(2)).sum::<f64>() < 0.1001_f64.powi(2);
+            centres.iter().enumerate().all(|(j, c)| *i == j || !within(c))
+        })
+        .map(|(_, p)| p)
+        .collect();
+    assert!(points.len() > 50, "{} points are on the boundary of the union", points.len());
+    let values = request::sample(&mut session, &request::View::default(), &points, false).expect("values");
+    let worst = values.iter().map(|s| s.value.abs()).fold(0.0, f64::max);
+    let mean = values.iter().map(|s| s.value.abs()).sum::<f64>() / values.len() as f64;
+    eprintln!("{} boundary points of {} spheres: at most {worst:e}, {mean:e} on average", points.len(), centres.len());
+    assert!(worst < 1e-14, "{worst:e}");
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use yont::field::{Coordinate, Graph, NodeId};
 use yont::limits::Limits;
+use yont::model::request;
 use yont::number::{Algebra, Binary, Interval, Reals, Unary};
 use yont::vm::{Boxes, Demand, Points, Program, reference};
 
@@ -124,4 +125,89 @@ fn boxes_give_the_pixels_of_the_dense_walk() {
         let all = (program.len() * side * side) as u64;
         assert!(picture.operations * 20 < all, "{} operations of {all}", picture.operations);
     }
+}
+
+/// The value of every line of the list at every pixel of some rows, in doubles, line by line; gives whether each pixel is inside.
+fn plainly(text: &str, side: usize, rows: std::ops::Range<usize>) -> Vec<bool> {
+    let width = rows.len() * side;
+    let pixels = || rows.clone().flat_map(|row| (0..side).map(move |column| (column, row)));
+    let mut values: Vec<Vec<f64>> = Vec::new();
+    let mut places = std::collections::HashMap::new();
+    for line in text.lines().filter(|l| !l.starts_with('#')) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let operand = |i: usize| -> &Vec<f64> { &values[places[words[i]]] };
+        let one = |f: fn(f64) -> f64| operand(2).iter().map(|a| f(*a)).collect();
+        let two = |f: fn(f64, f64) -> f64| operand(2).iter().zip(operand(3)).map(|(a, b)| f(*a, *b)).collect();
+        let result: Vec<f64> = match words[1] {
+            "const" => vec![words[2].parse().expect("a number"); width],
+            "var-x" => pixels().map(|(column, _)| centre(column, side)).collect(),
+            "var-y" => pixels().map(|(_, row)| -centre(row, side)).collect(),
+            "neg" => one(|a| -a),
+            "sqrt" => one(f64::sqrt),
+            "square" => one(|a| a * a),
+            "add" => two(|a, b| a + b),
+            "sub" => two(|a, b| a - b),
+            "mul" => two(|a, b| a * b),
+            "min" => two(f64::min),
+            "max" => two(f64::max),
+            other => panic!("unknown operation {other}"),
+        };
+        places.insert(words[0], values.len());
+        values.push(result);
+    }
+    values.last().expect("a list").iter().map(|value| *value <= 0.0).collect()
+}
+
+/// The script that the converter makes of the list, if the shared tools and Python are there.
+fn converted(shared: &Path) -> Option<String> {
+    let list = shared.join("data/models/prospero.vm");
+    let run = std::process::Command::new("python3").arg(shared.join("tools/vm2geo.py")).arg(list).output();
+    match run {
+        Ok(output) if output.status.success() => String::from_utf8(output.stdout).ok(),
+        _ => {
+            eprintln!("SKIPPED: python3 or {}/tools/vm2geo.py is missing", shared.display());
+            None
+        }
+    }
+}
+
+/// 256 pixels a side, or as many as `YONT_SIDE` says; 1024 takes half a minute in release.
+#[test]
+fn the_picture_of_the_script_is_right_at_every_pixel() {
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared");
+    let Some(script) = converted(&shared) else { return };
+    let side: usize = std::env::var("YONT_SIDE").ok().and_then(|text| text.parse().ok()).unwrap_or(256);
+    let mut session = crate::session::session();
+    let begun = std::time::Instant::now();
+    let outcome = session.input("prospero.geo", &script, yont::syntax::Mode::Script);
+    assert!(outcome.accepted, "{}", crate::session::messages(&outcome));
+    let read = begun.elapsed();
+    let mut options = request::Options::default();
+    options.picture.size = Some((side, side));
+    options.picture.palette = "mono".into();
+    let output = request::Output::parse("-", Some(request::Format::Png)).expect("a picture");
+    let mut bytes = Vec::new();
+    let written = request::write(&mut session, &output, &options, &mut bytes).unwrap_or_else(|told| panic!("{told:?}"));
+    eprintln!(
+        "{} definitions read in {read:?}, all in {:?}; {:?}",
+        script.matches(';').count(),
+        begun.elapsed(),
+        written.lines
+    );
+    let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().expect("a picture");
+    let mut pixels = vec![0; reader.output_buffer_size().expect("small")];
+    let frame = reader.next_frame(&mut pixels).expect("pixels");
+    assert_eq!((frame.width as usize, frame.height as usize), (side, side));
+    let stride = pixels.len() / (side * side);
+    let text = std::fs::read_to_string(shared.join("data/models/prospero.vm")).expect("the converter read it too");
+    let (mut inside, step) = (0, (16_384 / side).clamp(1, side));
+    for first in (0..side).step_by(step) {
+        let expected = plainly(&text, side, first..(first + step).min(side));
+        for (k, expected) in expected.into_iter().enumerate() {
+            let dark = pixels[(first * side + k) * stride] < 128;
+            assert_eq!(dark, expected, "pixel {} of row {}", k % side, first + k / side);
+            inside += usize::from(expected);
+        }
+    }
+    assert!(inside * 30 > side * side && inside * 2 < side * side, "{inside} pixels of text");
 }

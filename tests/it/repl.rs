@@ -11,8 +11,10 @@ use tempfile::TempDir;
 
 use super::cli::{BALL, folder, run};
 
+type Words = &'static [&'static str];
+
 /// What is typed, what standard output and standard error say, and the status.
-const PIPED: &[(&str, &str, &[&str], &[&str], i32)] = &[
+const PIPED: &[(&str, &str, Words, Words, i32)] = &[
     ("a value", "1 + 2*3\n", &["7"], &[], 0),
     ("a definition and its value", "a = 4;\na**2\n", &["16"], &[], 0),
     ("a definition propagates", "b = a + 1;\na = 4;\nb\na = 5;\nb\n", &["5\n", "6\n"], &["not defined yet"], 0),
@@ -86,6 +88,12 @@ fn a_program_is_kept_when_the_prompt_follows() {
 
 type Terminal = Session<UnixProcess, PtyStream>;
 
+/// Waits for an answer and the prompt after it.
+fn answer(terminal: &mut Terminal, words: &str) {
+    terminal.expect(words).expect(words);
+    terminal.expect("yont>").expect("a prompt");
+}
+
 /// `yont` on a terminal, with its state in `folder`.
 pub(crate) fn terminal(folder: &Path) -> Terminal {
     let mut command = Command::new(env!("CARGO_BIN_EXE_yont"));
@@ -106,17 +114,23 @@ fn on_a_terminal() {
     let mut terminal = terminal(state.path());
     terminal.send_line("gob_ball = (1 - x1**2").expect("typed");
     terminal.send_line("- x2**2);").expect("typed");
-    terminal.expect("gob_ball").expect("the definition");
-    terminal.send("gob_b\t + 0.25 AT (x1 = 0.5, x2 = 0)\r").expect("typed");
-    terminal.expect("1").expect("the name was completed, and the value is 1");
+    answer(&mut terminal, "object of x1, x2");
+    terminal.send("(gob_b\t AT (x1 = 0.5, x2 = 0))*36 + 709\r").expect("typed");
+    answer(&mut terminal, "736");
+    // A key is sent only once the line editor listens: before, Ctrl-C and Ctrl-D are the terminal's own.
     terminal.send("1 + unfinished").expect("typed");
+    terminal.expect("unfinished").expect("the line");
     terminal.send(ControlCode::EndOfText).expect("typed");
     terminal.expect("yont>").expect("Ctrl-C cancels the line");
     terminal.send_line("20 + 22").expect("typed");
-    terminal.expect("42").expect("and the prompt lives");
+    answer(&mut terminal, "42");
     terminal.send_line("nonsense(").expect("typed");
+    terminal.expect("nonsense(").expect("the line");
     terminal.send(ControlCode::EndOfText).expect("typed");
-    terminal.expect("yont>").expect("Ctrl-C leaves the unfinished input");
+    terminal.expect("\x1b[?2004l").expect("the line is left");
+    terminal.expect("yont>").expect("a prompt");
+    terminal.send_line("100 + 23").expect("typed");
+    answer(&mut terminal, "123");
     terminal.send(ControlCode::EndOfTransmission).expect("typed");
     terminal.expect(expectrl::Eof).expect("Ctrl-D leaves");
     assert!(matches!(terminal.get_process().wait(), Ok(WaitStatus::Exited(_, 0))));

@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use crate::field::{Coordinate, NodeId};
+use crate::number::Reals;
 use crate::source::Span;
 use crate::syntax::tree::{Expr, ExprKind, Ident, Mapping, Name};
+use crate::vm::reference;
 
 use super::super::errors;
 use super::super::value::{Scalar, Value};
@@ -157,6 +159,9 @@ impl Lower<'_> {
             Scalar::Number(_) => Ok(s),
             Scalar::Node(body) => {
                 let id = lower.graph.map(body, mapping);
+                if lower.graph.coordinates(id).is_empty() && lower.graph.number(id).is_none() {
+                    return Ok(Scalar::Number(reference::eval(&mut Reals, lower.graph, id, &[])));
+                }
                 Ok(lower.wrap(id))
             }
         })

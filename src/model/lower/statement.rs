@@ -14,8 +14,12 @@ use super::{Fault, Lower, Lowered, Slot, system_of};
 const POINT_TURNS: usize = 10_000;
 
 impl Lower<'_> {
+    /// Runs the statements of a body, a loop or a branch; the system of R-functions that they set ends with them.
     pub(super) fn block(&mut self, block: &[Statement]) -> Lowered<()> {
-        block.iter().try_for_each(|s| self.exec(s))
+        let system = self.active.clone();
+        let done = block.iter().try_for_each(|s| self.exec(s));
+        self.active = system;
+        done
     }
 
     /// Runs a statement of a body, a loop or a branch.
@@ -62,9 +66,7 @@ impl Lower<'_> {
         let before = self.locals.len();
         let locals = names::assigned(block).into_iter();
         self.locals.extend(locals.map(|name| super::Local { name, slot: Slot::Unset }));
-        let system = self.active.clone();
         self.block(block)?;
-        self.active = system;
         let value = self.local(&name.name, name.span)?;
         self.locals.truncate(before);
         Ok(value)

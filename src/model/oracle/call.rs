@@ -105,6 +105,24 @@ impl Oracle {
                 let above = pair(x.clone(), lo.clone(), &|a, b| Ok(maximum(a, b)))?;
                 pair(above, hi.clone(), &|a, b| Ok(minimum(a, b)))
             }
+            ("LERP" | "MIX", [a, b, t]) => {
+                let step = pair(b.clone(), a.clone(), &|b, a| Ok(b - a))?;
+                let part = pair(step, t.clone(), &|step, t| Ok(step * t))?;
+                pair(a.clone(), part, &|a, part| Ok(a + part))
+            }
+            ("SMOOTHSTEP", [lo, hi, a]) => {
+                let width = pair(hi.clone(), lo.clone(), &|hi, lo| Ok(hi - lo))?;
+                let above = pair(a.clone(), lo.clone(), &|a, lo| Ok(a - lo))?;
+                let part = pair(above, width, &|above, width| Ok(above / width))?;
+                each(part, &|t| {
+                    let t = t.clamp(0.0, 1.0);
+                    Ok(t * t * (3.0 - 2.0 * t))
+                })
+            }
+            ("HYPOT", [first, second, rest @ ..]) => {
+                let both = |a: Value, b: &Value| pair(a, b.clone(), &|a, b| Ok(a.hypot(b)));
+                rest.iter().try_fold(both(first.clone(), second)?, both)
+            }
             ("LEN", [Value::Array(list)]) => Ok(Value::Number(list.len() as f64)),
             ("JOIN", [Value::Array(a), Value::Array(b)]) => Ok(Value::Array(a.iter().chain(b).cloned().collect())),
             ("DOT", [a, b]) => {
@@ -132,6 +150,10 @@ const SPECIAL: &[&str] = &[
     "MIN",
     "MAX",
     "CLAMP",
+    "HYPOT",
+    "LERP",
+    "MIX",
+    "SMOOTHSTEP",
     "LEN",
     "JOIN",
     "DOT",
@@ -153,25 +175,32 @@ fn one(name: &str) -> Option<fn(f64) -> f64> {
         "CBRT" => f64::cbrt,
         "EXP" => f64::exp,
         "LOG" | "LN" => f64::ln,
+        "SEC" => |a| 1.0 / a.cos(),
+        "CSC" => |a| 1.0 / a.sin(),
+        "COT" => |a| a.cos() / a.sin(),
+        "RAD" => f64::to_radians,
+        "DEG" => f64::to_degrees,
+        "SQR" => |a| a * a,
+        "TRUNC" | "INT" => f64::trunc,
         "LOG10" => f64::log10,
         "LOG2" => f64::log2,
         "SIN" => f64::sin,
         "COS" => f64::cos,
         "TAN" => f64::tan,
-        "ASIN" => f64::asin,
-        "ACOS" => f64::acos,
-        "ATAN" => f64::atan,
+        "ASIN" | "ARCSIN" => f64::asin,
+        "ACOS" | "ARCCOS" => f64::acos,
+        "ATAN" | "ARCTAN" => f64::atan,
         "SINH" => f64::sinh,
         "COSH" => f64::cosh,
         "TANH" => f64::tanh,
-        "ASINH" => f64::asinh,
-        "ACOSH" => f64::acosh,
-        "ATANH" => f64::atanh,
+        "ASINH" | "ARSINH" => f64::asinh,
+        "ACOSH" | "ARCOSH" => f64::acosh,
+        "ATANH" | "ARTANH" => f64::atanh,
         "FLOOR" => f64::floor,
         "CEIL" => f64::ceil,
         "ROUND" => f64::round,
         "FRAC" => |a| a - a.floor(),
-        "SIGN" => |a| {
+        "SIGN" | "SGN" => |a| {
             if a > 0.0 {
                 1.0
             } else if a < 0.0 {
@@ -187,7 +216,7 @@ fn one(name: &str) -> Option<fn(f64) -> f64> {
 fn two(name: &str) -> Option<fn(f64, f64) -> f64> {
     Some(match name {
         "ATAN2" => f64::atan2,
-        "HYPOT" => f64::hypot,
+        "HEAVISIDE" => |edge, a| if a >= edge { 1.0 } else { 0.0 },
         "POW" => f64::powf,
         "MOD" => |a, b| a - b * (a / b).floor(),
         "MIN" => minimum,

@@ -42,7 +42,9 @@ impl Oracle {
             }
             ExprKind::Index { base, indices } => {
                 let base = self.expr(base, scope, system, point)?;
-                element(base, &self.indices(indices, scope, system, point)?)
+                let at: Vec<f64> =
+                    indices.iter().map(|e| self.number(e, scope, system, point)).collect::<Answer<_>>()?;
+                element(base, &at)
             }
             ExprKind::Call { callee, arguments } => self.call(callee, arguments, scope, system, point),
             ExprKind::Fold { op, index, from, to, body } => {
@@ -271,9 +273,11 @@ pub(super) fn number(value: Value) -> Answer<f64> {
     }
 }
 
-fn element(value: Value, indices: &[usize]) -> Answer {
+/// An element of an array, indexed from 1; undefined where an index, which must then depend on a coordinate, is not of the array.
+fn element(value: Value, indices: &[f64]) -> Answer {
     indices.iter().try_fold(value, |value, &i| match value {
-        Value::Array(mut list) if (1..=list.len()).contains(&i) => Ok(list.swap_remove(i - 1)),
+        Value::Array(list) if i.fract() != 0.0 || !(1.0..=list.len() as f64).contains(&i) => Ok(Value::Number(f64::NAN)),
+        Value::Array(mut list) => Ok(list.swap_remove(i as usize - 1)),
         _ => Err(Beyond::Unknown("index".into())),
     })
 }

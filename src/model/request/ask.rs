@@ -195,7 +195,10 @@ fn role(role: &Role) -> String {
 }
 
 /// The object that a view names as a subject: axes from types and ranges, sections from `at`, frames from time.
-fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Subject> {
+///
+/// # Errors
+/// Messages for the user: what is missing or makes no sense.
+pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Subject> {
     let mut object = session.object(view.object.as_deref())?;
     override_axes(&mut object, view);
     let mut told = Vec::new();

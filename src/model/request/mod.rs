@@ -12,12 +12,12 @@ mod pictures;
 mod solids;
 pub mod subject;
 
-pub use ask::{Info, info, measure, sample, write};
+pub use ask::{Info, info, measure, sample, subject, write};
 pub use fields::Sampled;
 pub use make::Written;
 pub use measured::Measured;
 pub use output::{FORMATS, Format, Kind, Output, Target};
-pub use subject::Sequence;
+pub use subject::{Sequence, Subject};
 
 use crate::field::Coordinate;
 
