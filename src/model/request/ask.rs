@@ -212,7 +212,6 @@ pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Sub
     match object.levels[..] {
         [0.0] => {}
         [level] => subject.node = lower(session, object.node, level),
-        [] => told.push(no_level(&object)),
         _ => {
             let mut levels = object.levels.clone();
             levels.sort_by(f64::total_cmp);
@@ -297,20 +296,9 @@ fn no_values(name: &str, axis: &environment::Axis) -> Diagnostic {
     let c = axis.coordinate;
     let (code, title) = match axis.role {
         Role::T => ("no-time", format!("`{name}` moves with {c}, which has no range")),
-        Role::Group(_) => ("no-values", format!("`{name}` varies with {c}, whose group of sections is empty")),
         _ => ("no-values", format!("`{name}` varies with {c}, which has the type {} and no range", role(&axis.role))),
     };
-    let add = match axis.role {
-        Role::Group(_) => format!("{c} : G = [0, 1];"),
-        _ => format!("{c}min = 0; {c}max = 1; {c}_delta = 0.1;"),
-    };
     Diagnostic::error(code, title)
-        .help(format!("add to the script: {add}"))
+        .help(format!("add to the script: {c}min = 0; {c}max = 1; {c}_delta = 0.1;"))
         .help(format!("or show one section: --at {c}=0"))
-}
-
-fn no_level(object: &Object) -> Diagnostic {
-    let name = &object.name;
-    Diagnostic::error("no-values", format!("`{name}` has the type G without a level"))
-        .help(format!("give it levels: `{name} : G = [-1, 0, 1];`"))
 }

@@ -1,4 +1,5 @@
-//! From an object of the session to a shape in a space: which coordinates are axes, what the others are fixed at, which take several values.
+//! From an object of the session to a shape in a space: which coordinates are axes, what the others are fixed at, which take several
+//! values. Makes no output.
 
 use crate::diagnostic::{Category, Diagnostic};
 use crate::field::{Coordinate, Graph, NodeId};
