@@ -5,7 +5,7 @@
 /// The bounds within which a session works. All are generous; each error that one of them causes names the number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Bytes of one source text.
+    /// Bytes of one source text. The tree of a text of short terms takes more than a hundred times as many.
     pub source_bytes: usize,
     /// Depth of brackets, blocks and prefix operators in a text.
     pub nesting: usize,
@@ -36,7 +36,7 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            source_bytes: 256 << 20,
+            source_bytes: 32 << 20,
             nesting: 1_000,
             errors: 50,
             call_depth: 1_000,

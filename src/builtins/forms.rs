@@ -129,22 +129,6 @@ pub(super) static TABLE: &[Builtin] = &[
         ("(GRAD(x1*x2) AT (x1 = 2, x2 = 7))[1]", 7.0),
     ),
     entry(
-        Special::Project,
-        Functions,
-        "PROJECT",
-        &["e", "x", "lo", "hi"],
-        "The maximum of e over the coordinate x in [lo, hi]: the union of its sections.",
-        ("PROJECT(1 - (x4 - 3)**2, x4, 0, 2)", 0.0),
-    ),
-    entry(
-        Special::OffsetBall,
-        Functions,
-        "OFFSET_BALL",
-        &["e", "d"],
-        "The maximum (d > 0) or minimum (d < 0) of e over the closed ball of radius |d| about the point: a constant-radius offset.",
-        ("OFFSET_BALL(1 - x1, 0.5) AT (x1 = 0)", 1.5),
-    ),
-    entry(
         Special::Interpolate,
         Data,
         "INTERPOLATE",

@@ -84,6 +84,10 @@ impl Word {
         if stem(&lower) == stem(&self.lower) {
             return Some(0.5);
         }
+        // Every letter is one slip from every other, which says nothing.
+        if self.length == 1 {
+            return None;
+        }
         let difference = lower.chars().count().abs_diff(self.length);
         let slips = if difference <= self.allowed() { damerau_levenshtein(&self.lower, &lower) } else { usize::MAX };
         // Half the length replaced is another name: `a` is no slip of `b` unless names are that short.

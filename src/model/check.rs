@@ -44,13 +44,35 @@ pub fn form(statement: &Statement) -> Option<Diagnostic> {
         }
         StatementKind::Define { body, .. } => loops_in(body),
         StatementKind::Type { subject, kind } => type_form(&subject.name, subject.span, kind),
-        _ => loops(std::slice::from_ref(statement)),
+        _ => governed(statement),
     }
+}
+
+/// What is wrong with a loop or an IF before it runs.
+fn governed(statement: &Statement) -> Option<Diagnostic> {
+    let inner = match &statement.kind {
+        StatementKind::If { then, otherwise, .. } => {
+            misplaced(then).or_else(|| misplaced(otherwise.as_deref().unwrap_or_default()))
+        }
+        StatementKind::While { body, .. } | StatementKind::For { body, .. } => misplaced(body),
+        _ => None,
+    };
+    inner.or_else(|| loops(std::slice::from_ref(statement)))
+}
+
+/// The first statement of a block that stands only at the top of a program.
+fn misplaced(block: &[Statement]) -> Option<Diagnostic> {
+    block.iter().find_map(|statement| match &statement.kind {
+        StatementKind::Define { body: Body::Block(block), .. } => misplaced(block),
+        StatementKind::If { .. } | StatementKind::While { .. } | StatementKind::For { .. } => governed(statement),
+        StatementKind::Define { .. } | StatementKind::Element { .. } | StatementKind::Failed { .. } => None,
+        _ => Some(errors::not_in_a_body(statement)),
+    })
 }
 
 fn loops_in(body: &Body) -> Option<Diagnostic> {
     match body {
-        Body::Block(block) => loops(block),
+        Body::Block(block) => misplaced(block).or_else(|| loops(block)),
         Body::Expression(_) => None,
     }
 }
@@ -122,7 +144,9 @@ pub fn unknown_names<'r>(
 ) -> Vec<Diagnostic> {
     let mut order: Vec<&Name> = Vec::new();
     let mut places: FxHashMap<&Name, Vec<Span>> = FxHashMap::default();
+    let mut read: FxHashSet<&str> = FxHashSet::default();
     for (name, span) in reads {
+        read.insert(name);
         if state.get(name).is_none() && !excused.contains(name) {
             let places = places.entry(name).or_insert_with(|| {
                 order.push(name);
@@ -135,7 +159,7 @@ pub fn unknown_names<'r>(
     }
     let told = order.into_iter().enumerate().map(|(i, name)| {
         if i < SUGGESTED {
-            errors::unknown_name(state, name, &places[name], note, excused)
+            errors::unknown_name_among(state, name, &places[name], note, (excused, &read))
         } else {
             errors::not_defined(name, &places[name], note)
         }

@@ -7,7 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::Diagnostic;
 use crate::source::{SourceId, Span};
-use crate::syntax::tree::{Expr, ExprKind, Name, Statement, StatementKind};
+use crate::syntax::tree::{Expr, ExprKind, Ident, Name, Statement, StatementKind};
 use crate::syntax::{self, Mode};
 
 use super::check;
@@ -213,7 +213,7 @@ impl<'s> Input<'s> {
         for item in items {
             let Item::Statement(statement) = item else { continue };
             match &statement.kind {
-                StatementKind::Failed { defines } => self.excused.extend(defines.iter().cloned()),
+                StatementKind::Failed { defines, .. } => self.excused.extend(defines.iter().cloned()),
                 StatementKind::Define { name, .. } => {
                     self.later.entry(name.name.clone()).or_insert(name.span);
                 }
@@ -240,13 +240,31 @@ impl<'s> Input<'s> {
             }
         };
         match &statement.kind {
-            StatementKind::Failed { .. } | StatementKind::Include { .. } => Ok(()),
+            StatementKind::Failed { defines, reads, condition } => {
+                self.failed(defines, reads, *condition, statement.span);
+                Ok(())
+            }
+            StatementKind::Include { .. } => Ok(()),
             StatementKind::Print { .. } | StatementKind::Expression(_) => self.ask(statement),
             _ => {
                 self.define(statement);
                 Ok(())
             }
         }
+    }
+
+    /// What a statement reads that did not parse: unknown names and a loop that cannot step are told all the same.
+    fn failed(&mut self, defines: &[Name], reads: &[Ident], condition: Option<Span>, span: Span) {
+        let own = |read: &&Ident| crate::builtins::find(&read.name).is_none() && !names::is_system(&read.name);
+        let reads: Vec<(Name, Span)> = reads.iter().filter(own).map(|r| (r.name.clone(), r.span)).collect();
+        let within = |c: Span| move |(_, at): &&(Name, Span)| c.start <= at.start && at.end <= c.end;
+        if let Some(condition) = condition {
+            let read: Vec<Name> = reads.iter().filter(within(condition)).map(|(n, _)| n.clone()).collect();
+            if !read.is_empty() {
+                self.tell(errors::loop_never_steps(&read, defines, condition, span));
+            }
+        }
+        self.loose.extend(reads);
     }
 
     /// An INCLUDE restores the system of R-functions that it found.

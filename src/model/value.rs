@@ -49,7 +49,7 @@ impl Scalar {
         }
     }
 
-    /// A node as a scalar: constants become numbers, and so does what a section leaves without coordinates.
+    /// A node as a scalar: what depends on no coordinate becomes a number, such as an object at a point.
     #[must_use]
     pub fn of(graph: &Graph, id: NodeId) -> Self {
         match graph.number(id) {

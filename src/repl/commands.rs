@@ -158,6 +158,10 @@ pub fn doc(repl: &mut Repl, name: &str) -> Flow {
     match builtins::find(name) {
         _ if repl.session.is_defined(name) => repl.show(&repl.session.describe(name)),
         Some(builtin) => repl.show(&text::explain(builtin)),
+        None if repl.session.is_defined(name) => {
+            let line = repl.session.describe(name);
+            repl.show(&format!("{line}\n    No comment stands right above its definition."))
+        }
         None => unknown_name(repl, name),
     }
 }

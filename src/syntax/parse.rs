@@ -152,7 +152,9 @@ impl<'t> Driver<'t> {
         if chunk.faults.len() < MENDINGS && chunk.faults.iter().all(|fault| mended.blank(place, fault.start)) {
             self.further_errors(chunk, mended);
         }
-        self.fail(chunk, chunk.start);
+        // Brackets say nothing against the words between them; after a text or comment without an end nothing is sure.
+        let brackets = chunk.faults.iter().all(|f| f.kind.is_bracket());
+        self.fail(chunk, chunk.start, if brackets { chunk.end } else { chunk.start });
     }
 
     /// Tells the errors of a block one after another, each time without the statement that had the last one.
@@ -182,9 +184,12 @@ impl<'t> Driver<'t> {
         }
     }
 
-    fn fail(&mut self, chunk: &Chunk, start: usize) {
-        let defines = explain::defined_names(self.place(start, chunk.end));
-        self.push(StatementKind::Failed { defines }, chunk, start, chunk.end);
+    /// A statement that failed; its words count up to byte `sure`.
+    fn fail(&mut self, chunk: &Chunk, start: usize, sure: usize) {
+        let place = self.place(start, chunk.end);
+        let defines = explain::defined_names(place);
+        let (reads, condition) = explain::read_names(place, sure);
+        self.push(StatementKind::Failed { defines, reads, condition }, chunk, start, chunk.end);
     }
 
     fn push(&mut self, kind: StatementKind, chunk: &Chunk, start: usize, end: usize) {
@@ -203,7 +208,7 @@ impl<'t> Driver<'t> {
             let Stop::At(at) = stop else {
                 let diagnostic = explain::gave_up(place);
                 self.parsed.diagnostics.push(diagnostic);
-                return self.fail(chunk, start);
+                return self.fail(chunk, start, start);
             };
             let next = explain::forgotten_semicolon(place, at);
             told += 1;
@@ -234,11 +239,15 @@ impl<'t> Driver<'t> {
             let rest = Chunk { start, ..chunk.clone() };
             self.further_errors(&rest, Mended::new(self.text, &rest));
         } else {
-            let explained = explain::unexpected(place, at);
+            let mut explained = explain::unexpected(place, at);
+            if self.mode == Mode::Prompt && explained.diagnostic.code == "stray-else" {
+                let help = "at the prompt an IF that is complete ends with its line: leave ELSE at the end of that line";
+                explained.diagnostic = explained.diagnostic.help(help);
+            }
             self.parsed.incomplete |= explained.at_end && chunk.semicolon.is_none();
             self.parsed.diagnostics.push(explained.diagnostic);
         }
-        self.fail(chunk, start);
+        self.fail(chunk, start, at);
     }
 
     /// Parses one statement of `start..end`; the error says where the grammar stopped.
@@ -258,7 +267,7 @@ impl<'t> Driver<'t> {
         let failed = diagnostics.iter().any(Diagnostic::is_error);
         self.parsed.diagnostics.extend(diagnostics);
         match kind {
-            Some(_) if failed => self.fail(chunk, start),
+            Some(_) if failed => self.fail(chunk, start, chunk.end),
             Some(kind) => self.push(kind, chunk, start, end),
             None => {}
         }

@@ -29,6 +29,14 @@ pub enum FaultKind {
     TooDeep,
 }
 
+impl FaultKind {
+    /// Whether it is about a bracket.
+    #[must_use]
+    pub fn is_bracket(self) -> bool {
+        matches!(self, Self::StrayClose | Self::Mismatch(_) | Self::Unclosed(_))
+    }
+}
+
 /// A fault and its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fault {

@@ -268,6 +268,14 @@ pub enum StatementKind {
     Print { items: Vec<Expr> },
     /// A bare expression: at the prompt, or the last of a script
     Expression(Expr),
-    /// Did not parse; still counts as defining these names
-    Failed { defines: Vec<Name> },
+    /// Did not parse; still counts as defining and reading these names, as far as its words tell. The condition is a WHILE's.
+    Failed { defines: Vec<Name>, reads: Vec<Ident>, condition: Option<Span> },
+}
+
+impl StatementKind {
+    /// What failed without a name.
+    #[must_use]
+    pub fn failed() -> Self {
+        Self::Failed { defines: Vec::new(), reads: Vec::new(), condition: None }
+    }
 }

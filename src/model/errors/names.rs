@@ -19,11 +19,25 @@ use super::count;
 /// A name that nothing defines; a note if the prompt may still be told. `places` are where it is read, the first one underlined;
 /// `excused` are names of statements that failed, which may be meant all the same.
 pub fn unknown_name(state: &State, name: &str, places: &[Span], note: bool, excused: &FxHashSet<Name>) -> Diagnostic {
+    unknown_name_among(state, name, places, note, (excused, &FxHashSet::default()))
+}
+
+/// The same where other names are read as well, by statements that failed for one.
+pub fn unknown_name_among(
+    state: &State,
+    name: &str,
+    places: &[Span],
+    note: bool,
+    others: (&FxHashSet<Name>, &FxHashSet<&str>),
+) -> Diagnostic {
     let told = not_defined(name, places, note);
+    if name == "_" {
+        return told.help("`_` is the value of the last expression at the prompt, and there is none yet");
+    }
     if let Some(builtin) = builtins::find(name) {
         return told.help(format!("`{}` is a built-in function: {}", builtin.name, builtin.signature()));
     }
-    let near = near(state, name, excused);
+    let near = near(state, name, others);
     match &near[..] {
         [] if note => told,
         [] => told.help(format!("define it: `{name} = ...;`, above or below")),
@@ -47,9 +61,12 @@ pub fn not_defined(name: &str, places: &[Span], note: bool) -> Diagnostic {
 }
 
 /// The defined names that are nearest to `name`, names that nothing reads first.
-fn near(state: &State, name: &str, excused: &FxHashSet<Name>) -> Vec<String> {
+fn near(state: &State, name: &str, (excused, read): (&FxHashSet<Name>, &FxHashSet<&str>)) -> Vec<String> {
     // Settings such as x1min are read by nothing, and are not more likely for that.
-    let unread = |n: &Name| state.readers(n).next().is_none() && !super::super::environment::is_setting(n);
+    let unread = |n: &Name| {
+        let nobody = state.readers(n).next().is_none() && !read.contains(&**n);
+        nobody && !super::super::environment::is_setting(n)
+    };
     let user = state.names().map(|n| Candidate { name: n, preferred: unread(n) });
     let failed = excused.iter().map(|n| Candidate { name: n, preferred: false });
     let known = builtins::all().map(|b| Candidate { name: b.name, preferred: false });
@@ -187,6 +204,7 @@ pub fn not_in_a_body(statement: &Statement) -> Diagnostic {
     };
     Diagnostic::error("not-in-a-body", format!("{what} cannot stand inside a loop, a branch or a body"))
         .at(statement.span, "move it outside")
+        .help("a loop or a branch only assigns: give the value a name and use it below")
 }
 
 /// Two arguments of AT for one coordinate.

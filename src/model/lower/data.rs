@@ -93,12 +93,4 @@ impl Lower<'_> {
                 .into(),
         })
     }
-
-    pub(super) fn project(&mut self, _arguments: &[Expr], span: Span) -> Lowered<Value> {
-        Err(Diagnostic::error("unsupported", "PROJECT cannot be evaluated by this version").at(span, "").into())
-    }
-
-    pub(super) fn offset_ball(&mut self, _arguments: &[Expr], span: Span) -> Lowered<Value> {
-        Err(Diagnostic::error("unsupported", "OFFSET_BALL cannot be evaluated by this version").at(span, "").into())
-    }
 }

@@ -114,8 +114,6 @@ impl Lower<'_> {
             Special::Diff => return self.diff(&arguments[0], &arguments[1]),
             Special::Grad => return self.grad(&arguments[0], span),
             Special::Interpolate => return self.interpolate(builtin, arguments, span),
-            Special::Project => return self.project(arguments, span),
-            Special::OffsetBall => return self.offset_ball(arguments, span),
         };
         self.fold_array(op, builtin, &arguments[0], span)
     }

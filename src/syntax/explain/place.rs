@@ -1,10 +1,9 @@
-//! A part of a text as tokens: what it defines, what documents it.
+//! A part of a text as tokens: where its statements begin and end, what documents it.
 
 use std::sync::Arc;
 
 use crate::source::{SourceId, Span};
-use crate::syntax::scan::{Scanner, Token, TokenKind, coordinate_digits, is_reserved};
-use crate::syntax::tree::Name;
+use crate::syntax::scan::{Scanner, Token, TokenKind, is_reserved};
 
 /// A part of a text.
 #[derive(Clone, Copy, Debug)]
@@ -71,36 +70,6 @@ pub fn begins_statement(text: &str, tokens: &[Token], at: usize) -> bool {
     let keyword = ["WHILE", "FOR", "PRINT", "INCLUDE"].iter().any(|k| k.eq_ignore_ascii_case(word));
     let typed = tokens.get(at + 1).is_some_and(|t| t.text(text) == ":");
     keyword || (typed && !is_reserved(word)) || definition_head(text, tokens, at).is_some()
-}
-
-/// The names that the statements of a part would define, each once, in order. Only heads at the start of the part, of a
-/// line, after `;`, BEGIN, THEN, ELSE and DO count, so that a comparison is not taken for a definition.
-pub fn defined_names(place: Place<'_>) -> Vec<Name> {
-    let tokens = place.tokens();
-    let mut names: Vec<Name> = Vec::new();
-    let mut seen = rustc_hash::FxHashSet::default();
-    let mut skip_to = 0;
-    for (at, token) in tokens.iter().enumerate() {
-        let begins = match at.checked_sub(1).map(|before| tokens[before]) {
-            None => true,
-            Some(before) if before.kind == TokenKind::Semicolon => true,
-            Some(before) if before.kind == TokenKind::Word => {
-                let word = before.text(place.text);
-                ["BEGIN", "THEN", "ELSE", "DO"].iter().any(|k| k.eq_ignore_ascii_case(word))
-            }
-            Some(before) => place.line_between(before.end, token.start),
-        };
-        if !begins || at < skip_to {
-            continue;
-        }
-        let Some(after) = definition_head(place.text, &tokens, at) else { continue };
-        skip_to = after;
-        let word = token.text(place.text);
-        if coordinate_digits(word).is_none() && seen.insert(word) {
-            names.push(Name::from(word));
-        }
-    }
-    names
 }
 
 /// The comments right above byte `start`, without their marks; empty if there are none.

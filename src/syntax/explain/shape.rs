@@ -1,6 +1,7 @@
 //! Messages about a text's shape: size, characters, brackets, blocks, comments and texts that nothing closes.
 
-use super::place::{Place, defined_names};
+use super::names::defined_names;
+use super::place::Place;
 use crate::diagnostic::{Category, Diagnostic};
 use crate::limits::Limits;
 use crate::source::{SourceId, Span};

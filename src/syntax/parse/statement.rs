@@ -39,7 +39,7 @@ impl<'t> Builder<'t> {
             Rule::type_ => self.type_(inner),
             _ => match inner.next() {
                 Some(value) => self.bare(value),
-                None => StatementKind::Failed { defines: Vec::new() },
+                None => StatementKind::failed(),
             },
         }
     }
@@ -51,7 +51,10 @@ impl<'t> Builder<'t> {
             && let Some(at) = rest.first().map(|r| r.1)
             && self.text.get(at.range()) == Some("=")
         {
-            self.diagnostics.push(explain::no_definition(self.text, first));
+            // `x17 = 3` has been told already that there is no such coordinate.
+            if !self.diagnostics.iter().any(|d| d.labels.iter().any(|l| l.span == first.span)) {
+                self.diagnostics.push(explain::no_definition(self.text, first));
+            }
         }
         StatementKind::Expression(value)
     }
@@ -113,7 +116,7 @@ impl<'t> Builder<'t> {
         let body = self.branch_in(inner);
         match index {
             Some(index) => StatementKind::For { index, from, to, step, body },
-            None => StatementKind::Failed { defines: Vec::new() },
+            None => StatementKind::failed(),
         }
     }
 
@@ -142,7 +145,7 @@ impl<'t> Builder<'t> {
 
     fn definition(&mut self, mut inner: Pairs<'t, Rule>) -> StatementKind {
         let Some(name) = inner.next().map(|name| self.ident(&name)) else {
-            return StatementKind::Failed { defines: Vec::new() };
+            return StatementKind::failed();
         };
         self.not_pi(&name);
         let mut parameters = None;
@@ -230,14 +233,14 @@ impl<'t> Builder<'t> {
         }
         match (name, value) {
             (Some(name), Some(value)) => StatementKind::Element { name, indices, value },
-            _ => StatementKind::Failed { defines: Vec::new() },
+            _ => StatementKind::failed(),
         }
     }
 
     fn type_(&mut self, mut inner: Pairs<'t, Rule>) -> StatementKind {
         let subject = inner.next().and_then(|s| s.into_inner().next());
         let (Some(subject), Some(kind)) = (subject, inner.next()) else {
-            return StatementKind::Failed { defines: Vec::new() };
+            return StatementKind::failed();
         };
         if let Some(digits) = coordinate_digits(subject.as_str()) {
             self.coordinate(digits, &subject);

@@ -73,7 +73,7 @@ fn statement(s: &Statement) -> String {
         StatementKind::Include { path, .. } => format!("(include {path:?})"),
         StatementKind::Print { items } => format!("(print{})", list(items, expr)),
         StatementKind::Expression(e) => expr(e),
-        StatementKind::Failed { defines } => format!("(failed{})", list(defines, ToString::to_string)),
+        StatementKind::Failed { defines, .. } => format!("(failed{})", list(defines, ToString::to_string)),
     };
     format!("{doc}{text}")
 }
