@@ -36,6 +36,8 @@ pub struct Style {
     pub background: [[u8; 3]; 2],
     /// Whether there is no background: a pixel is as opaque as the part of it that the object covers.
     pub transparent: bool,
+    /// The colour of the object, instead of the palette's.
+    pub solid: Option<[u8; 3]>,
 }
 
 impl Default for Style {
@@ -47,6 +49,7 @@ impl Default for Style {
             shadow: 0.6,
             background: [[0xfb, 0xfc, 0xfd], [0xdf, 0xe4, 0xea]],
             transparent: false,
+            solid: None,
         }
     }
 }
@@ -88,7 +91,7 @@ pub fn raycast(
         return Ok(Picture { image: Image::new(width, height, [0; 3]), counters: Counters::default(), hits: 0 });
     }
     let scene = Scene { camera: *camera, space, rays: style.size, tile: 8 };
-    let lights = Lights::new(camera, style.palette.solid());
+    let lights = Lights::new(camera, style.solid.unwrap_or(style.palette.solid()));
     let side = (width.max(height) * 3 / 4).clamp(256, 2048);
     let sun = (style.shadow > 0.0).then(|| Shadows::scene(space, lights.key(), side));
     let fine = style.fine();
