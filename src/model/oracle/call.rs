@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use super::expr::{each, maximum, minimum, number, pair};
+use super::expr::{each, maximum, minimum, number, pair, power};
 use super::{Answer, Beyond, Binding, Function, Later, Oracle, Point, Scope, Source, System, Value};
 use crate::syntax::tree::{Body, Expr, ExprKind, FoldOp, Ident};
 
@@ -218,7 +218,7 @@ fn two(name: &str) -> Option<fn(f64, f64) -> f64> {
     Some(match name {
         "ATAN2" => f64::atan2,
         "HEAVISIDE" => |edge, a| if a >= edge { 1.0 } else { 0.0 },
-        "POW" => f64::powf,
+        "POW" => power,
         "MOD" => |a, b| a - b * (a / b).floor(),
         "MIN" => minimum,
         "MAX" => maximum,

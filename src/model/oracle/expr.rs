@@ -38,7 +38,7 @@ impl Oracle {
             ExprKind::Power { base, exponent } => {
                 let base = self.expr(base, scope, system, point)?;
                 let exponent = self.expr(exponent, scope, system, point)?;
-                pair(base, exponent, &|a, b| Ok(a.powf(b)))
+                pair(base, exponent, &|a, b| Ok(power(a, b)))
             }
             ExprKind::Index { base, indices } => {
                 let base = self.expr(base, scope, system, point)?;
@@ -242,6 +242,11 @@ fn r_union(a: f64, b: f64, alpha: f64) -> f64 {
 
 fn intersection(a: f64, b: f64, rule: Rule) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { -union(-a, -b, rule) }
+}
+
+/// A power; undefined if an operand is, also where any number would give the same.
+pub(super) fn power(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.powf(b) }
 }
 
 /// The smaller; undefined if one is.
