@@ -174,7 +174,7 @@ pub struct Look {
     /// The colours; in a plot, `mono` is black inside and white outside
     #[arg(long, value_name = "NAME", value_parser = palettes())]
     pub palette: Option<String>,
-    /// Samples along each side of a pixel
+    /// Rays along each side of a pixel where a picture shows an edge
     #[arg(long, value_name = "N", value_parser = positive)]
     pub supersample: Option<usize>,
     /// Axes with numbers around the picture, which grows by them; graphs and contour maps always have them

@@ -101,6 +101,9 @@ fn never_steps(condition: &Expr, body: &[Statement], span: Span) -> Option<Diagn
 
 fn type_form(subject: &str, span: Span, kind: &GeometricType) -> Option<Diagnostic> {
     let coordinate = super::environment::coordinate(subject).is_some();
+    if let GeometricType::Constant(None) | GeometricType::Group(None) | GeometricType::Center(None) = kind {
+        return Some(errors::type_without_value(subject, span, kind));
+    }
     let fits = match kind {
         GeometricType::Constant(_) | GeometricType::Group(_) => true,
         GeometricType::Center(_) => !coordinate,

@@ -241,7 +241,8 @@ impl<'t> Driver<'t> {
         } else {
             let mut explained = explain::unexpected(place, at);
             if self.mode == Mode::Prompt && explained.diagnostic.code == "stray-else" {
-                let help = "at the prompt an IF that is complete ends with its line: leave ELSE at the end of that line";
+                let help =
+                    "at the prompt an IF that is complete ends with its line: leave ELSE at the end of that line";
                 explained.diagnostic = explained.diagnostic.help(help);
             }
             self.parsed.incomplete |= explained.at_end && chunk.semicolon.is_none();

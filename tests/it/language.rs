@@ -7,7 +7,7 @@ use yont::host::Memory;
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::model::value::Scalar;
-use yont::model::{Outcome, Session, Value};
+use yont::model::{Event, Outcome, Session, Value};
 use yont::number::Reals;
 use yont::syntax::Mode;
 use yont::vm::reference;
@@ -284,4 +284,33 @@ fn as_printed_is_explained_error_by_error() {
     assert!(helps.contains("`e1`") && helps.contains("`e2`"), "{helps}");
     assert!(found.contains("loop-never-steps"), "{found}");
     assert!(found.contains("`i` is not defined"), "{found}");
+}
+
+#[test]
+fn an_object_at_a_point_and_a_derivative_by_a_parameter_are_numbers() {
+    let cases = [
+        ("v = x1**2 - x2; PRINT v(3, 4), v AT (x1 = 3, x2 = 1);", "5 8"),
+        ("v = (x1 - x2) AT (x2, x1); PRINT v AT (5, 3);", "-2"),
+        ("v = x1 AT (x1 = x1 + 1) AT (x1 = 2*x1); PRINT v(5);", "11"),
+        ("r = 3; PRINT DIFF(r**2, r), DIFF(x1**3, x1) AT (2);", "6 12"),
+        ("v = IF x1 > 0 THEN x1; PRINT v(1), v(-1);", "1 undefined"),
+        (
+            "v = SQRT(x1); PRINT (v | 2) AT (-1), MAX(v, 2) AT (-1), (v & 2) AT (-1), (v > 0) AT (-1);",
+            "2 2 undefined 0",
+        ),
+        ("v = x1 | x2; r_alpha = 1; w = x1 | x2; PRINT v(3, 4), w(3, 4);", "12 4"),
+        ("z = 0; n = 0; WHILE (z < 4 AND n < 9) DO BEGIN z = z**2 + x1; n = n + 1; END; PRINT n(2), z(2);", "2 6"),
+        ("a = [10, 20]; v = a[x1]; PRINT v(2), v(1.5);", "20 undefined"),
+        ("v = INTERPOLATE(\"trilinear\", \"ramp.nrrd\", x1); PRINT v(0.5), v(2);", "0.25 1"),
+    ];
+    for (script, expected) in cases {
+        let mut session = session_with(&[("ramp.nrrd", RAMP)]);
+        let outcome = session.input("test.geo", script, Mode::Script);
+        assert_eq!(
+            outcome.events.last(),
+            Some(&Event::Printed(expected.to_owned())),
+            "{script}\n{}",
+            messages(&outcome)
+        );
+    }
 }

@@ -9,7 +9,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::near::{Candidate, suggest};
 use crate::field::Coordinate;
 use crate::source::Span;
-use crate::syntax::tree::{Name, Parameter, Statement, StatementKind};
+use crate::syntax::tree::{GeometricType, Name, Parameter, Statement, StatementKind};
 
 use super::super::definition::Definition;
 use super::super::state::State;
@@ -205,6 +205,18 @@ pub fn not_in_a_body(statement: &Statement) -> Diagnostic {
     Diagnostic::error("not-in-a-body", format!("{what} cannot stand inside a loop, a branch or a body"))
         .at(statement.span, "move it outside")
         .help("a loop or a branch only assigns: give the value a name and use it below")
+}
+
+/// `x8 : G;`
+pub fn type_without_value(subject: &str, span: Span, kind: &GeometricType) -> Diagnostic {
+    let (word, example) = match kind {
+        GeometricType::Group(_) => ("G", "[0, 1, 2]"),
+        GeometricType::Center(_) => ("CENTER", "[0, 0, 0]"),
+        _ => ("CONSTANT", "0.5"),
+    };
+    Diagnostic::error("type-without-value", format!("{word} of `{subject}` has no value"))
+        .at(span, "")
+        .help(format!("write `{subject} : {word} = {example};`"))
 }
 
 /// Two arguments of AT for one coordinate.

@@ -227,9 +227,10 @@ pub fn bad_system(name: &str, value: &Value, span: Span) -> Diagnostic {
 
 /// Too many turns.
 pub fn too_many_turns(limit: usize, span: Span) -> Diagnostic {
-    Diagnostic::error("too-many-turns", format!("loops and calls took {limit} turns without an end"))
+    Diagnostic::error("too-many-turns", format!("loops, folds and calls took more than {limit} turns"))
         .at(span, "")
-        .help("does the body ever make the condition false? The limit holds for all loops of one input together")
+        .help("a WHILE ends when its body makes the condition false: does it ever?")
+        .help("the limit holds for one input as a whole")
 }
 
 /// A graph that has grown too large.

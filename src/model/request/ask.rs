@@ -131,7 +131,7 @@ pub fn info(session: &mut Session) -> Asked<Vec<Info>> {
     for name in session.objects() {
         match session.object(Some(&name)) {
             Ok(object) => {
-                let operations = crate::field::expand::reachable(&session.graph, object.node).len();
+                let operations = crate::field::operations(&session.graph, object.node);
                 all.push(Info { object, operations });
             }
             Err(mut errors) => told.append(&mut errors),

@@ -59,6 +59,10 @@ pub fn read_names(place: Place<'_>, sure: usize) -> (Vec<Ident>, Option<Span>) {
         return (Vec::new(), None);
     }
     let heads = heads(place, &tokens);
+    // What is no definition and begins with no keyword may be anything.
+    if heads.is_empty() && !tokens.first().is_some_and(|t| is_reserved(t.text(text))) {
+        return (Vec::new(), None);
+    }
     let in_head = |at: usize| heads.iter().any(|(from, to)| (*from..*to).contains(&at));
     let binds = |at: usize| in_head(at) || tokens.get(at + 1).is_some_and(|t| t.text(text) == "=");
     let words = || tokens.iter().enumerate().filter(|(_, t)| t.kind == TokenKind::Word);
