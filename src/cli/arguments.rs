@@ -9,7 +9,9 @@ use crate::model::request::{FORMATS, Format};
 use crate::picture::camera::View;
 use crate::picture::palette::Palette;
 
-use super::values::{Assignment, Extent, Section, Size, angles, assignment, extent, positive, section, size};
+use super::values::{
+    Assignment, Extent, Section, Size, Slices, angles, assignment, extent, positive, section, size, slices,
+};
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -160,7 +162,7 @@ pub struct Fineness {
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 #[command(next_help_heading = "Pictures")]
 pub struct Look {
-    /// Pixels of a picture; by default a size that suits the object
+    /// Pixels of a picture, of each picture in a sheet; by default a size that suits the object
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
     /// Where the camera stands, in degrees: around the object from its front, and above it; instead of --view
@@ -172,9 +174,15 @@ pub struct Look {
     /// The colours; in a plot, `mono` is black inside and white outside
     #[arg(long, value_name = "NAME", value_parser = palettes())]
     pub palette: Option<String>,
-    /// Samples along each side of a pixel
+    /// Rays along each side of a pixel where a picture shows an edge
     #[arg(long, value_name = "N", value_parser = positive)]
     pub supersample: Option<usize>,
+    /// Axes with numbers around the picture, which grows by them; graphs and contour maps always have them
+    #[arg(long)]
+    pub axes: bool,
+    /// N sections across an axis, from LO to HI, as outlines of an .svg or lines of one .png
+    #[arg(long, value_name = "xN=LO:HI:N", value_parser = slices, allow_hyphen_values = true)]
+    pub slices: Option<Slices>,
 }
 
 /// The frames of an animation.
@@ -184,7 +192,7 @@ pub struct Motion {
     /// Frames; by default those of the step of T
     #[arg(long, value_name = "N", value_parser = positive)]
     pub frames: Option<usize>,
-    /// Frames a second in a GIF (default 4)
+    /// Frames a second in an animation (default 4)
     #[arg(long, value_name = "F")]
     pub fps: Option<f64>,
 }

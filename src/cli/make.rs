@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::field::Coordinate;
 use crate::model::Session;
-use crate::model::request::{self, Cells, Options, Output, PictureOptions, Target, Timing, View, Written};
+use crate::model::request::{self, Cells, Options, Output, PictureOptions, Sequence, Target, Timing, View, Written};
 
 use super::arguments::Making;
 use super::console::Console;
@@ -82,7 +82,9 @@ pub fn options(making: &Making) -> Options {
             supersample: look.supersample.unwrap_or(picture.supersample),
             view: camera.or_else(|| look.view.clone()).unwrap_or(picture.view),
             palette: look.palette.clone().unwrap_or(picture.palette),
+            axes: look.axes,
         },
         timing: Timing { frames: making.motion.frames, fps: making.motion.fps.unwrap_or(timing.fps) },
+        slices: look.slices.map(|s| Sequence { coordinate: Coordinate(s.coordinate), values: s.places() }),
     }
 }

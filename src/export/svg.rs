@@ -9,8 +9,8 @@ use svg::node::element::{Element, Group, Path};
 /// The outlines of one section.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slice {
-    /// Where the section was taken along the third axis; none for an object of two dimensions.
-    pub height: Option<f64>,
+    /// What is said of the slice: `x3` and the value at which the section was taken, or `level` and its value.
+    pub marks: Vec<(String, f64)>,
     /// Closed loops, the last point joined to the first; even-odd decides what is inside.
     pub loops: Vec<Vec<[f64; 2]>>,
     /// Fill as sRGB.
@@ -30,7 +30,7 @@ pub fn write(slices: &[Slice], lo: [f64; 2], hi: [f64; 2], name: &str, out: &mut
         return Err(refuse("no section has an outline"));
     }
     let points = || slices.iter().flat_map(|slice| slice.loops.iter().flatten().flatten());
-    if !points().all(|x| x.is_finite()) || !slices.iter().filter_map(|s| s.height).all(f64::is_finite) {
+    if !points().all(|x| x.is_finite()) || !slices.iter().flat_map(|s| &s.marks).all(|mark| mark.1.is_finite()) {
         return Err(refuse("a point of an outline is not finite"));
     }
     let thin = size[0].min(size[1]) / 400.;
@@ -64,10 +64,7 @@ fn group(slice: &Slice, thin: f64) -> Group {
         .set("stroke", "#1a1a1a")
         .set("stroke-width", thin)
         .set("stroke-linejoin", "round");
-    let group = match slice.height {
-        Some(height) => group.set("data-x3", height),
-        None => group,
-    };
+    let group = slice.marks.iter().fold(group, |group, (name, value)| group.set(format!("data-{name}"), *value));
     if slice.loops.is_empty() { group } else { group.add(Path::new().set("d", outline(&slice.loops))) }
 }
 

@@ -51,14 +51,16 @@ impl Axis {
         matches!(self.role, Role::X | Role::Y | Role::Z)
     }
 
-    /// The values that this coordinate takes one after the other: frames of T, columns and rows of V and W, sections of G; the single
-    /// value of CONSTANT. Nothing for the axes of space, and where the range is missing. A negative delta counts backwards.
+    /// The values that this coordinate takes one after the other: frames of T, columns and rows of V and W, sections of G and C; the
+    /// single value of CONSTANT. Nothing for the axes of space, and where the range is missing. A negative delta counts backwards.
     #[must_use]
     pub fn steps(&self, limit: usize) -> Vec<f64> {
         match (&self.role, self.range) {
             (Role::Constant(value), _) => vec![*value],
             (Role::Group(values), _) => values.clone(),
             (Role::T | Role::V | Role::W, Some((lo, hi))) => steps(lo, hi, self.delta.unwrap_or(hi - lo), limit),
+            // A spectrum is read off its legend: eight steps show it where none is given.
+            (Role::C, Some((lo, hi))) => steps(lo, hi, self.delta.unwrap_or((hi - lo) / 8.0), limit),
             _ => Vec::new(),
         }
     }

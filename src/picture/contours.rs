@@ -5,7 +5,7 @@ use super::axes::{Axis, GRID, INK, Look, PAPER, Plot, Surround, number, ticks};
 use super::canvas::{Area, Canvas, Pen};
 use super::image::Image;
 use super::isolines::{Field, Isoline};
-use super::legend::{Key, Legend, member_colour};
+use super::legend::{Legend, Telling};
 use super::palette::Palette;
 use super::text::{self, Across, Lettering, Upright};
 
@@ -140,30 +140,27 @@ fn contour(canvas: &mut Canvas, lines: &[Isoline], plot: &Plot, stroke: &Stroke,
     }
 }
 
-/// Draws the lines of one level of several fields over one window, each in its own colour with its name in a key: a group of sections.
-/// None if there is no field or no memory for the picture.
+/// Draws the lines of one level of several fields over one window, each in its own colour: a group of sections. None
+/// if there is no field or no memory for the picture.
 #[must_use]
-pub fn group(members: &[(String, Field)], level: f64, map: &Map, width: usize, height: usize) -> Option<Image> {
-    let window = members.first()?.1.window;
+pub fn group(fields: &[Field], telling: &Telling, level: f64, map: &Map, [width, height]: [usize; 2]) -> Option<Image> {
+    let window = fields.first()?.window;
     let mut canvas = Canvas::new(width, height, PAPER)?;
     let look = Look::of(width, height);
-    let entries = members.iter().enumerate().map(|(k, (name, _))| (name.clone(), member_colour(k))).collect();
-    let key = Key { entries };
     let surround = Surround { title: map.title.clone(), equal: true, bare: false };
-    let right = width as f32 - key.width(look);
+    let right = width as f32 - telling.width(height as f32, look);
     let room = Area { left: look.text * 0.4, top: 0., right, bottom: height as f32 };
     let [x, y] = [0, 1].map(|d| Axis::new(map.names[d].clone(), window.lo[d], window.hi[d]));
     let plot = Plot::within(room, x, y, look, &surround);
     plot.grid(&mut canvas);
     canvas.clip(Some(plot.area));
-    for (k, (_, field)) in members.iter().enumerate() {
-        let colour = member_colour(k);
+    for (field, &colour) in fields.iter().zip(&telling.colours) {
         let stroke = Stroke { pen: Pen::solid(colour, look.thick), label: String::new(), ink: colour };
         contour(&mut canvas, &field.lines(level), &plot, &stroke, &mut Vec::new());
     }
     canvas.clip(None);
     plot.frame(&mut canvas, &surround);
-    key.draw(&mut canvas, [plot.area.right + look.text, plot.area.top], look);
+    telling.draw(&mut canvas, plot.area, look);
     Some(canvas.image())
 }
 

@@ -4,7 +4,7 @@
 use super::axes::{Axis, Look, PAPER, Plot, Surround};
 use super::canvas::{Area, Canvas, Pen};
 use super::image::Image;
-use super::legend::{Key, member_colour};
+use super::legend::Telling;
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::Shape;
@@ -349,30 +349,34 @@ pub fn stack(graphs: &[Graph], x: &Axis, width: usize, height: usize) -> Option<
     Some(canvas.image())
 }
 
-/// Draws several curves over each other in one plot, each in its own colour with its name in a key: a group of sections. None if there
-/// is no curve or no memory for the picture.
+/// Draws several curves over each other in one plot, each in its own colour: a group of sections. None if there is no curve or no
+/// memory for the picture.
 #[must_use]
-pub fn group(members: &[(String, Curve)], graph: &Graph, x: &Axis, width: usize, height: usize) -> Option<Image> {
-    let all = members.iter().map(|(_, curve)| curve.values);
+pub fn group(
+    curves: &[Curve],
+    telling: &Telling,
+    graph: &Graph,
+    x: &Axis,
+    [width, height]: [usize; 2],
+) -> Option<Image> {
+    let all = curves.iter().map(|curve| curve.values);
     let values = all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
     let [lo, hi] = Graph { curve: Curve { values, ..Curve::default() }, ..graph.clone() }.value_range();
     let mut canvas = Canvas::new(width, height, PAPER)?;
     let look = Look::of(width, height);
-    let entries = members.iter().enumerate().map(|(k, (name, _))| (name.clone(), member_colour(k))).collect();
-    let key = Key { entries };
     let surround = Surround { title: graph.title.clone(), ..Surround::default() };
-    let right = width as f32 - key.width(look);
+    let right = width as f32 - telling.width(height as f32, look);
     let room = Area { left: look.text * 0.4, top: 0., right, bottom: height as f32 };
     let plot = Plot::within(room, x.clone(), Axis::new(graph.name.clone(), lo, hi), look, &surround);
     plot.grid(&mut canvas);
     canvas.clip(Some(plot.area));
     zero_line(&mut canvas, &plot);
-    for (k, (_, curve)) in members.iter().enumerate() {
-        runs(&mut canvas, &plot, curve, member_colour(k));
+    for (curve, &colour) in curves.iter().zip(&telling.colours) {
+        runs(&mut canvas, &plot, curve, colour);
     }
     canvas.clip(None);
     plot.frame(&mut canvas, &surround);
-    key.draw(&mut canvas, [plot.area.right + look.text, plot.area.top], look);
+    telling.draw(&mut canvas, plot.area, look);
     Some(canvas.image())
 }
 

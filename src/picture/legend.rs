@@ -126,6 +126,60 @@ impl Key {
     }
 }
 
+/// What tells the members of a group from each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Telling {
+    /// The members' colours.
+    pub colours: Vec<[u8; 4]>,
+    /// What explains them.
+    pub means: Means,
+}
+
+/// What explains the colours of a group.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Means {
+    /// A list of names.
+    Key(Key),
+    /// A bar of values.
+    Legend(Legend),
+}
+
+impl Telling {
+    /// Each member has its own colour beside its name.
+    #[must_use]
+    pub fn names(names: impl IntoIterator<Item = String>) -> Self {
+        let entries: Vec<_> = names.into_iter().enumerate().map(|(k, name)| (name, member_colour(k))).collect();
+        Telling { colours: entries.iter().map(|entry| entry.1).collect(), means: Means::Key(Key { entries }) }
+    }
+
+    /// Each member has the colour of its value.
+    #[must_use]
+    pub fn values(values: impl IntoIterator<Item = f64>, legend: Legend) -> Self {
+        let colour = |value| {
+            let [r, g, b] = legend.colour(value);
+            [r, g, b, 255]
+        };
+        Telling { colours: values.into_iter().map(colour).collect(), means: Means::Legend(legend) }
+    }
+
+    /// The columns that it takes at the right of a picture of that height.
+    #[must_use]
+    pub fn width(&self, height: f32, look: Look) -> f32 {
+        match &self.means {
+            Means::Key(key) => key.width(look),
+            Means::Legend(legend) => legend.width(height * 0.8, look) + look.text,
+        }
+    }
+
+    /// Draws it at the right of an area.
+    pub fn draw(&self, canvas: &mut Canvas, area: Area, look: Look) {
+        match &self.means {
+            Means::Key(key) => key.draw(canvas, [area.right + look.text, area.top], look),
+            Means::Legend(legend) => legend.draw(canvas, area.right + look.text, area.top, area.bottom, look),
+        }
+    }
+}
+
 /// The colours of a group's members in turn, told apart also by those who do not tell red from green.
 #[must_use]
 pub fn member_colour(k: usize) -> [u8; 4] {

@@ -12,6 +12,7 @@ pub mod canvas;
 pub mod contours;
 pub mod extent;
 pub mod field;
+mod frustum;
 pub mod graph;
 pub mod image;
 pub mod isolines;

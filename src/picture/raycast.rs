@@ -4,7 +4,7 @@ use super::camera::{Camera, View};
 use super::extent::Extent;
 use super::image::Image;
 use super::palette::{Palette, encode, linear};
-use super::rays::{Hit, Scene, Tile, cast};
+use super::rays::{Aim, Hit, Pattern, Scene, Tile, cast_on};
 use super::shade::{Light, Lights};
 use super::shadow::Shadows;
 use crate::interrupt::{Cancelled, Interrupt};
@@ -25,7 +25,8 @@ pub struct Space {
 pub struct Style {
     /// Pixels in a row and in a column.
     pub size: [usize; 2],
-    /// Rays along each side of a pixel, 1 to 4.
+    /// Rays along each side of a pixel where it shows an edge, 1 to 4; elsewhere a pixel is the mean of its corners. With 1 every pixel is
+    /// what one ray through its middle meets.
     pub supersample: usize,
     /// Decides the colour of the object.
     pub palette: Palette,
@@ -33,6 +34,10 @@ pub struct Style {
     pub shadow: f32,
     /// The colours at the top and at the bottom of the background.
     pub background: [[u8; 3]; 2],
+    /// Whether there is no background: a pixel is as opaque as the part of it that the object covers.
+    pub transparent: bool,
+    /// The colour of the object, instead of the palette's.
+    pub solid: Option<[u8; 3]>,
 }
 
 impl Default for Style {
@@ -43,7 +48,15 @@ impl Default for Style {
             palette: Palette::Plain,
             shadow: 0.6,
             background: [[0xfb, 0xfc, 0xfd], [0xdf, 0xe4, 0xea]],
+            transparent: false,
+            solid: None,
         }
+    }
+}
+
+impl Style {
+    fn fine(&self) -> usize {
+        self.supersample.clamp(1, 4)
     }
 }
 
@@ -77,33 +90,54 @@ pub fn raycast(
     if width == 0 || height == 0 {
         return Ok(Picture { image: Image::new(width, height, [0; 3]), counters: Counters::default(), hits: 0 });
     }
-    let fine = style.supersample.clamp(1, 4);
-    // Tiles are whole pixels.
-    let tile = if fine == 3 { 6 } else { 8 };
-    let scene = Scene { camera: *camera, space, rays: [width * fine, height * fine], tile };
-    let lights = Lights::new(camera, style.palette.solid());
-    let (shadows, mut counters) = if style.shadow > 0.0 {
-        let side = width.max(height).clamp(256, 2048);
-        let (shadows, cost) = Shadows::cast(shape, space, lights.key(), side, interrupt)?;
-        (Some(shadows), cost)
-    } else {
-        (None, Counters::default())
+    let scene = Scene { camera: *camera, space, rays: style.size, tile: 8 };
+    let lights = Lights::new(camera, style.solid.unwrap_or(style.palette.solid()));
+    let side = (width.max(height) * 3 / 4).clamp(256, 2048);
+    let sun = (style.shadow > 0.0).then(|| Shadows::scene(space, lights.key(), side));
+    let fine = style.fine();
+    let passes = if fine > 1 { 2 } else { 1 };
+    interrupt.begin(sun.map_or(0, |sun| sun.steps()) + passes * scene.steps());
+    let (shadows, mut counters) = match sun {
+        Some(_) => {
+            let (shadows, cost) = Shadows::cast(shape, space, lights.key(), side, interrupt)?;
+            (Some(shadows), cost)
+        }
+        None => (None, Counters::default()),
     };
-    let brush = Brush { scene, lights, shadows, shadow: style.shadow.min(1.0), backdrop: backdrop(style), fine };
-    let (tiles, cost) = cast(shape, &scene, |tile| brush.paint(tile), interrupt)?;
+    let brush = Brush::new(scene, style, lights, shadows);
+    let mut picture = Picture { image: Image::new(width, height, [0; 3]), counters: Counters::default(), hits: 0 };
+    let mut edges = vec![false; width * height];
+    let aim = |pattern| Aim { pattern, tolerance: TOLERANCE, normals: true };
+    let pattern = if fine > 1 { Pattern::Corners } else { Pattern::Middles };
+    let (tiles, cost) = cast_on(shape, &scene, aim(pattern), |tile| brush.paint(&tile), interrupt)?;
     counters.add(cost);
-    let mut image = Image::new(width, height, [0; 3]);
-    let mut hits = 0;
-    for (from, size, (pixels, met)) in tiles {
-        hits += met;
-        let columns = size[0] / fine;
-        for (row, pixels) in pixels.chunks_exact(4 * columns).enumerate() {
-            let at = 4 * ((from[1] / fine + row) * width + from[0] / fine);
-            image.rgba[at..at + pixels.len()].copy_from_slice(pixels);
+    for (from, size, painted) in tiles {
+        picture.hits += painted.hits;
+        for (row, pixels) in painted.pixels.chunks_exact(size[0]).enumerate() {
+            let at = (from[1] + row) * width + from[0];
+            for (i, pixel) in pixels.iter().enumerate() {
+                picture.image.rgba[4 * (at + i)..][..4].copy_from_slice(&pixel.rgba);
+                edges[at + i] = pixel.edge;
+            }
         }
     }
-    Ok(Picture { image, counters, hits })
+    if fine > 1 {
+        let aim = aim(Pattern::Shares(fine, &edges));
+        let (tiles, cost) = cast_on(shape, &scene, aim, |tile| brush.touch_up(&tile), interrupt)?;
+        counters.add(cost);
+        for (at, rgba) in tiles.into_iter().flat_map(|(.., pixels)| pixels) {
+            picture.image.rgba[4 * at..][..4].copy_from_slice(&rgba);
+        }
+    }
+    picture.counters = counters;
+    Ok(picture)
 }
+
+/// How exactly depths are found, as a part of the range of depths: a hundredth of a pixel in a picture of 10,000 of them.
+const TOLERANCE: f64 = 1e-6;
+
+/// How far the colours at the corners of a pixel may lie apart, of 1, before it is looked at more closely.
+const CONTRAST: f32 = 0.03;
 
 /// The camera of that view which frames the object, in a picture of the style's size.
 #[must_use]
@@ -124,49 +158,103 @@ struct Brush {
     scene: Scene,
     lights: Lights,
     shadows: Option<Shadows>,
-    shadow: f32,
+    style: Style,
     backdrop: Vec<Light>,
+    /// The pixels of the rows where nothing is hit.
+    empty: Vec<[u8; 4]>,
     fine: usize,
 }
 
+/// A tile of pixels, row by row.
+struct Painted {
+    pixels: Vec<Pixel>,
+    hits: u64,
+}
+
+struct Pixel {
+    rgba: [u8; 4],
+    /// Whether it shows more than its corners tell.
+    edge: bool,
+}
+
 impl Brush {
-    /// The pixels of a tile, four bytes each, and how many of its rays met the object.
-    fn paint(&self, tile: Tile<'_>) -> (Vec<u8>, u64) {
-        let fine = self.fine;
-        let [columns, rows] = tile.size.map(|n| n / fine);
-        let mut pixels = Vec::with_capacity(4 * columns * rows);
+    fn new(scene: Scene, style: &Style, lights: Lights, shadows: Option<Shadows>) -> Self {
+        let backdrop = backdrop(style);
+        let empty = |light: &Light| {
+            let [r, g, b] = light.map(encode);
+            if style.transparent { [0; 4] } else { [r, g, b, 255] }
+        };
+        let empty = backdrop.iter().map(empty).collect();
+        Self { scene, lights, shadows, style: *style, backdrop, empty, fine: style.fine() }
+    }
+
+    /// The pixels of a tile from rays through their corners, or through their middles.
+    fn paint(&self, tile: &Tile<'_>) -> Painted {
+        let [columns, rows] = tile.size;
+        let (corners, across) = if self.fine > 1 { (1, columns + 1) } else { (0, columns) };
+        let lights = self.lights(tile);
+        let mut pixels = Vec::with_capacity(columns * rows);
         for j in 0..rows {
-            let behind = self.backdrop[tile.from[1] / fine + j];
-            let empty = behind.map(encode);
             for i in 0..columns {
-                let [r, g, b] = if tile.hits.is_empty() { empty } else { self.pixel(&tile, [i, j], behind) };
-                pixels.extend([r, g, b, 255]);
+                let at = |x: usize, y: usize| lights.get((j + y) * across + i + x).copied().flatten();
+                let seen = [at(0, 0), at(corners, 0), at(0, corners), at(corners, corners)];
+                pixels.push(Pixel { rgba: self.mean(&seen, tile.from[1] + j), edge: differ(&seen) });
             }
         }
-        (pixels, tile.hits.iter().flatten().count() as u64)
+        Painted { pixels, hits: tile.hits.iter().flatten().count() as u64 }
     }
 
-    /// The mean light of a pixel's rays. Each is cut at white first, so that a gleam does not make its edge jagged.
-    fn pixel(&self, tile: &Tile<'_>, [i, j]: [usize; 2], behind: Light) -> [u8; 3] {
-        let fine = self.fine;
+    /// The pixels of a tile that show edges, by their index in the picture.
+    fn touch_up(&self, tile: &Tile<'_>) -> Vec<(usize, [u8; 4])> {
+        let lights = self.lights(tile);
+        let cells = tile.places.chunks_exact(self.fine * self.fine).map(|places| places[0].map(|v| v as usize));
+        let pixels = cells.zip(lights.chunks_exact(self.fine * self.fine));
+        pixels.map(|([i, j], seen)| (j * self.style.size[0] + i, self.mean(seen, j))).collect()
+    }
+
+    /// The light of each ray of a tile; none where it misses.
+    fn lights(&self, tile: &Tile<'_>) -> Vec<Option<Light>> {
+        tile.hits.iter().zip(tile.places).map(|(hit, &place)| Some(self.light(hit.as_ref()?, place))).collect()
+    }
+
+    /// The mean of what the rays of a pixel see. Each light is cut at white first, so that a gleam does not make its edge jagged.
+    fn mean(&self, seen: &[Option<Light>], row: usize) -> [u8; 4] {
+        if seen.iter().all(Option::is_none) {
+            return self.empty[row];
+        }
+        let (behind, clear) = (self.backdrop[row], self.style.transparent);
         let mut sum = [0.0_f32; 3];
-        for y in j * fine..(j + 1) * fine {
-            for x in i * fine..(i + 1) * fine {
-                let hit = tile.hits[y * tile.size[0] + x];
-                let light = hit.map_or(behind, |hit| self.light(&hit, tile.from[0] + x, tile.from[1] + y));
-                (0..3).for_each(|k| sum[k] += light[k].min(1.0));
-            }
+        let mut covered = 0;
+        for light in seen {
+            covered += usize::from(light.is_some());
+            let light = light.unwrap_or(if clear { [0.0; 3] } else { behind });
+            (0..3).for_each(|k| sum[k] += light[k].min(1.0));
         }
-        sum.map(|light| encode(light / (fine * fine) as f32))
+        let count = if clear { covered.max(1) } else { seen.len() };
+        let [r, g, b] = sum.map(|light| encode(light / count as f32));
+        let opacity = if clear { (255 * covered + seen.len() / 2) / seen.len() } else { 255 };
+        [r, g, b, opacity as u8]
     }
 
-    /// The light of a hit of ray (i, j).
-    fn light(&self, hit: &Hit, i: usize, j: usize) -> Light {
+    /// The light of a hit of the ray through a place.
+    fn light(&self, hit: &Hit, place: [f64; 2]) -> Light {
         self.lights.shade(hit, |facing| {
             let Some(shadows) = &self.shadows else { return 1.0 };
-            let (start, direction) = self.scene.ray(i, j);
+            let (start, direction) = self.scene.through(place);
             let point = std::array::from_fn(|k| start[k] + hit.depth * direction[k]);
-            1.0 - self.shadow * (1.0 - shadows.lit(point, hit.normal, facing))
+            1.0 - self.style.shadow.min(1.0) * (1.0 - shadows.lit(point, hit.normal, facing))
         })
     }
+}
+
+/// Whether some of the rays miss and others do not, or their colours lie far apart.
+fn differ(seen: &[Option<Light>; 4]) -> bool {
+    // The root is near enough to the code of a colour.
+    let colours = seen.map(|light| light.map(|light| light.map(|v| v.clamp(0.0, 1.0).sqrt())));
+    let [first, rest @ ..] = &colours;
+    rest.iter().any(|other| match (first, other) {
+        (Some(a), Some(b)) => a.iter().zip(b).any(|(a, b)| (a - b).abs() > CONTRAST),
+        (None, None) => false,
+        _ => true,
+    })
 }

@@ -5,35 +5,63 @@
 //! sample spacing along a ray is found where the function has a maximum between samples, as at silhouettes.
 
 use crate::interrupt::{Cancelled, Interrupt};
-use crate::number::Interval;
-use crate::surface::boxes::{Block, Lattice, Visitor, walk};
+use crate::surface::boxes::{Block, Visitor, points, walk_on};
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::{Program, Shape};
 
 use super::camera::Camera;
+use super::frustum::{Frustum, Ray};
 use super::raycast::Space;
-use super::search::{Bracket, SAMPLES, Segment, Summit};
+use super::search::{BETWEEN, Bracket, COARSE, ENDS, SAMPLES, Segment, Summit, is_far, is_open};
 
-/// Samples of a picture and the space that they look into.
+/// Cells of a picture (its pixels, say) and the space that they look into.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene {
     /// The camera.
     pub camera: Camera,
     /// The modelling space.
     pub space: Space,
-    /// Rays along a row and along a column; ray (i, j) goes through the middle of its share of the picture, from the top left.
+    /// Cells along a row and along a column.
     pub rays: [usize; 2],
-    /// Rays along each side of a tile of the smallest size; what is gathered is handed over in multiples of it.
+    /// Cells along each side of a tile of the smallest size; what is gathered is handed over in multiples of it.
     pub tile: usize,
 }
 
 impl Scene {
-    /// The start and the change by depth of ray (i, j).
+    /// The start and the change by depth of the ray through a place, in cells from the top left.
     #[must_use]
-    pub fn ray(&self, i: usize, j: usize) -> ([f64; 3], [f64; 3]) {
+    pub fn through(&self, [x, y]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
         let [columns, rows] = self.rays;
-        self.camera.ray(2.0 * ((i as f64 + 0.5) / columns as f64) - 1.0, 1.0 - 2.0 * ((j as f64 + 0.5) / rows as f64))
+        self.camera.ray(2.0 * (x / columns as f64) - 1.0, 1.0 - 2.0 * (y / rows as f64))
     }
+
+    /// What casting rays into it advances the progress by.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        points(&Frustum::new(*self))
+    }
+}
+
+/// Which rays go through the cells.
+#[derive(Clone, Copy, Debug)]
+pub enum Pattern<'a> {
+    /// One through the middle of each.
+    Middles,
+    /// One through each corner: one more in a row and in a column than cells.
+    Corners,
+    /// `n` x `n` through each of the cells that are marked, none through the others.
+    Shares(usize, &'a [bool]),
+}
+
+/// Which rays are cast, and what is asked of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim<'a> {
+    /// The rays.
+    pub pattern: Pattern<'a>,
+    /// How exactly a depth is wanted, as a part of the range of depths.
+    pub tolerance: f64,
+    /// Whether normals are wanted; else they are those of a plane turned to the eye.
+    pub normals: bool,
 }
 
 /// Where a ray meets the object.
@@ -47,21 +75,24 @@ pub struct Hit {
     pub cap: bool,
 }
 
-/// The hits of a tile of rays, row by row.
+/// The hits of a tile of cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Tile<'a> {
     /// First column and row.
     pub from: [usize; 2],
-    /// Columns and rows.
+    /// Columns and rows of cells.
     pub size: [usize; 2],
-    /// One entry for each ray; empty if no ray of the tile hits anything.
+    /// One entry for each ray: row by row for middles and corners; for shares cell by cell, row by row in each. Empty if no ray of the tile
+    /// hits anything.
     pub hits: &'a [Option<Hit>],
+    /// The rays' places, in cells from the top left; empty if `hits` is.
+    pub places: &'a [[f64; 2]],
 }
 
 /// What `finish` made of each tile, with the tile's first column and row and its size, in a fixed order; and what it cost.
 pub type Tiles<T> = (Vec<([usize; 2], [usize; 2], T)>, Counters);
 
-/// Casts all rays and lets `finish` turn each tile into what is kept of it.
+/// Casts a ray through the middle of each cell, as exactly as can be, and lets `finish` turn each tile into what is kept of it.
 ///
 /// # Errors
 /// [`Cancelled`] soon after the interrupt was set.
@@ -71,150 +102,33 @@ pub fn cast<T: Send>(
     finish: impl Fn(Tile<'_>) -> T + Sync,
     interrupt: &Interrupt,
 ) -> Result<Tiles<T>, Cancelled> {
+    interrupt.begin(scene.steps());
+    cast_on(shape, scene, Aim { pattern: Pattern::Middles, tolerance: 1e-11, normals: true }, finish, interrupt)
+}
+
+/// Casts the rays that are wanted, as a part of a task whose progress was begun already.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+pub fn cast_on<T: Send>(
+    shape: &Shape,
+    scene: &Scene,
+    aim: Aim<'_>,
+    finish: impl Fn(Tile<'_>) -> T + Sync,
+    interrupt: &Interrupt,
+) -> Result<Tiles<T>, Cancelled> {
     let frustum = Frustum::new(*scene);
-    let visitor = |block: &Block| Caster::new(&frustum, shape, block, &finish);
-    let done = walk(&frustum, shape, visitor, interrupt)?;
+    let visitor = |block: &Block| Caster::new(&frustum, shape, aim, block, &finish);
+    let done = walk_on(&frustum, shape, visitor, interrupt)?;
     let tiles = done.visitors.into_iter().filter_map(|caster| Some((caster.from, caster.size, caster.result?)));
     Ok((tiles.collect(), done.counters))
 }
 
-/// Cells of depth in the smallest box.
-const LEAF_DEPTH: usize = 4;
-
 /// Narrowing steps towards a maximum: each leaves 0.618 of the bracket, so its place is known to 1e-5 of a sample's spacing.
 const GOLDEN_STEPS: usize = 24;
 
-/// Steps of a root search; every third is a bisection.
-const ROOT_STEPS: usize = 90;
-
-/// The rays of a picture x cells of depth.
-struct Frustum {
-    scene: Scene,
-    near: f64,
-    far: f64,
-    cells: usize,
-    /// How far rounding may carry a computed point beyond the hull of computed corners.
-    slack: f64,
-}
-
-impl Frustum {
-    fn new(scene: Scene) -> Self {
-        let Space { lo, hi } = scene.space;
-        let (near, far) = scene.camera.depths(lo, hi);
-        let middle = 0.5 * (near + far);
-        let height = scene.camera.base[1] + scene.camera.growth[1] * middle;
-        let footprint = 2.0 * height / scene.rays[1] as f64;
-        // A cell is as deep as two rays are apart, so that the smallest boxes are about cubes.
-        let cells = ((far - near) / (2.0 * footprint)).ceil().clamp(1.0, 16_384.0) as usize;
-        let size =
-            (0..3).map(|k| lo[k].abs().max(hi[k].abs()).max(scene.camera.eye[k].abs())).fold(far.abs(), f64::max);
-        Self { scene, near, far, cells: cells.next_multiple_of(LEAF_DEPTH), slack: 1e-13 * size }
-    }
-
-    fn depth(&self, cell: usize) -> f64 {
-        self.near + (self.far - self.near) * (cell as f64 / self.cells as f64)
-    }
-
-    fn ray(&self, i: usize, j: usize) -> Ray {
-        let (start, direction) = self.scene.ray(i, j);
-        Ray::new(start, direction, self.scene.space)
-    }
-}
-
-impl Lattice for Frustum {
-    fn counts(&self) -> [usize; 3] {
-        [self.scene.rays[0], self.scene.rays[1], self.cells]
-    }
-
-    fn leaf(&self) -> [usize; 3] {
-        [self.scene.tile, self.scene.tile, LEAF_DEPTH]
-    }
-
-    fn task(&self) -> [usize; 3] {
-        [4 * self.scene.tile, 4 * self.scene.tile, self.cells]
-    }
-
-    fn bounds(&self, block: &Block, out: &mut [Interval]) {
-        let Space { lo, hi } = self.scene.space;
-        let (mut least, mut most) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for i in [block.from[0], block.to[0] - 1] {
-            for j in [block.from[1], block.to[1] - 1] {
-                let ray = self.ray(i, j);
-                for depth in [self.depth(block.from[2]), self.depth(block.to[2])] {
-                    for k in 0..3 {
-                        let at = ray.start[k] + depth * ray.direction[k];
-                        least[k] = least[k].min(at);
-                        most[k] = most[k].max(at);
-                    }
-                }
-            }
-        }
-        for (k, out) in out.iter_mut().enumerate() {
-            *out =
-                Interval::new((least[k] - self.slack).clamp(lo[k], hi[k]), (most[k] + self.slack).clamp(lo[k], hi[k]));
-        }
-    }
-}
-
-/// A ray and the depths between which it is in the space.
-#[derive(Clone, Copy, Debug)]
-struct Ray {
-    start: [f64; 3],
-    direction: [f64; 3],
-    enter: f64,
-    leave: f64,
-    /// The axis of the face through which it enters.
-    face: usize,
-}
-
-impl Ray {
-    /// `enter > leave` if it misses the space.
-    fn new(start: [f64; 3], direction: [f64; 3], space: Space) -> Self {
-        let mut ray = Self { start, direction, enter: 0.0, leave: f64::INFINITY, face: 2 };
-        for k in 0..3 {
-            if direction[k] == 0.0 {
-                if start[k] < space.lo[k] || start[k] > space.hi[k] {
-                    ray.leave = f64::NEG_INFINITY;
-                }
-                continue;
-            }
-            let (a, b) = ((space.lo[k] - start[k]) / direction[k], (space.hi[k] - start[k]) / direction[k]);
-            let (first, last) = if a <= b { (a, b) } else { (b, a) };
-            if first > ray.enter {
-                (ray.enter, ray.face) = (first, k);
-            }
-            ray.leave = ray.leave.min(last);
-        }
-        ray
-    }
-
-    fn point(&self, depth: f64, space: &Space) -> [f64; 3] {
-        std::array::from_fn(|k| (self.start[k] + depth * self.direction[k]).clamp(space.lo[k], space.hi[k]))
-    }
-
-    fn cap(&self) -> Hit {
-        let mut normal = [0.0; 3];
-        normal[self.face] = if self.direction[self.face] > 0.0 { -1.0 } else { 1.0 };
-        Hit { depth: self.enter, normal, cap: true }
-    }
-
-    /// A hit with the normal from a gradient, turned to the eye; undefined (NaN) where the gradient is of no use.
-    fn hit(&self, depth: f64, gradient: [f64; 3]) -> Hit {
-        Hit { depth, normal: self.facing(gradient).unwrap_or([f64::NAN; 3]), cap: false }
-    }
-
-    /// The unit vector along `v` or against it, whichever is turned to the eye; `None` if `v` has no direction.
-    fn facing(&self, v: [f64; 3]) -> Option<[f64; 3]> {
-        let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-        if !(largest > 0.0 && largest.is_finite() && v.iter().all(|c| c.is_finite())) {
-            return None;
-        }
-        let scaled = v.map(|c| c / largest);
-        let along: f64 = (0..3).map(|k| scaled[k] * self.direction[k]).sum();
-        let length = scaled.iter().map(|c| c * c).sum::<f64>().sqrt();
-        Some(scaled.map(|c| if along > 0.0 { -c / length } else { c / length }))
-    }
-}
+/// Steps of a root search; at least every third leaves half of the bracket or less.
+const ROOT_STEPS: usize = 120;
 
 /// Scratch for points and values.
 #[derive(Default)]
@@ -244,14 +158,21 @@ impl Columns {
 struct Caster<'a, T, F> {
     frustum: &'a Frustum,
     shape: &'a Shape,
+    aim: Aim<'a>,
     finish: &'a F,
     from: [usize; 2],
     size: [usize; 2],
+    places: Vec<[f64; 2]>,
     rays: Vec<Ray>,
     hits: Vec<Option<Hit>>,
+    /// The last sample of each ray, depth and value: a box begins where the one before it ended.
+    known: Vec<(f64, f64)>,
+    /// The rays through each smallest tile, row by row.
+    tiles: Vec<Vec<usize>>,
     /// Rays that were found inside without a bracket: their normals are still to be computed.
     bare: Vec<usize>,
     segments: Vec<Segment>,
+    samples: Vec<[f64; SAMPLES]>,
     brackets: Vec<Bracket>,
     summits: Vec<Summit>,
     columns: Columns,
@@ -259,18 +180,23 @@ struct Caster<'a, T, F> {
 }
 
 impl<'a, T, F> Caster<'a, T, F> {
-    fn new(frustum: &'a Frustum, shape: &'a Shape, block: &Block, finish: &'a F) -> Self {
+    fn new(frustum: &'a Frustum, shape: &'a Shape, aim: Aim<'a>, block: &Block, finish: &'a F) -> Self {
         let [columns, rows, _] = block.counts();
         Self {
             frustum,
             shape,
+            aim,
             finish,
             from: [block.from[0], block.from[1]],
             size: [columns, rows],
+            places: Vec::new(),
             rays: Vec::new(),
             hits: Vec::new(),
+            known: Vec::new(),
+            tiles: Vec::new(),
             bare: Vec::new(),
             segments: Vec::new(),
+            samples: Vec::new(),
             brackets: Vec::new(),
             summits: Vec::new(),
             columns: Columns::default(),
@@ -280,60 +206,148 @@ impl<'a, T, F> Caster<'a, T, F> {
 
     /// Sets up the rays when the first of them is needed; a tile that is empty throughout never needs any.
     fn prepare(&mut self) {
-        if self.rays.is_empty() {
-            let [columns, rows] = self.size;
-            let places = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
-            let [first, top] = self.from;
-            self.rays.extend(places.map(|(i, j)| self.frustum.ray(first + i, top + j)));
-            self.hits.resize(self.rays.len(), None);
+        if !self.tiles.is_empty() {
+            return;
         }
+        let ([columns, rows], tile) = (self.size, self.frustum.scene.tile);
+        let across = columns.div_ceil(tile);
+        self.tiles.resize(across * rows.div_ceil(tile), Vec::new());
+        self.place();
+        for (ray, place) in self.places.iter().enumerate() {
+            // A corner at the right or the lower edge belongs to the last cell before it.
+            let cell = |k: usize| (place[k] as usize - self.from[k]).min(self.size[k] - 1);
+            self.tiles[cell(1) / tile * across + cell(0) / tile].push(ray);
+        }
+        self.rays.extend(self.places.iter().map(|&place| self.frustum.ray(place)));
+        self.hits.resize(self.rays.len(), None);
+        self.known.resize(self.rays.len(), (f64::NAN, f64::NAN));
+    }
+
+    /// Lists the places of the rays.
+    fn place(&mut self) {
+        let ([left, top], [columns, rows]) = (self.from, self.size);
+        let cells = |columns: usize, rows: usize| {
+            (0..rows).flat_map(move |j| (0..columns).map(move |i| [(left + i) as f64, (top + j) as f64]))
+        };
+        match self.aim.pattern {
+            Pattern::Middles => self.places.extend(cells(columns, rows).map(|place| place.map(|v| v + 0.5))),
+            Pattern::Corners => self.places.extend(cells(columns + 1, rows + 1)),
+            Pattern::Shares(fine, marked) => {
+                let part = |s: usize| (s as f64 + 0.5) / fine as f64;
+                for [x, y] in cells(columns, rows) {
+                    if marked[y as usize * self.frustum.scene.rays[0] + x as usize] {
+                        let shares = (0..fine * fine).map(|s| [x + part(s % fine), y + part(s / fine)]);
+                        self.places.extend(shares);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The rays through `block` that have not hit yet, wherever they are in depth.
+    fn looking<'c>(&'c self, block: &Block) -> impl Iterator<Item = usize> + 'c {
+        let tile = self.frustum.scene.tile;
+        let across = self.size[0].div_ceil(tile);
+        let range = |k: usize| (block.from[k] - self.from[k]) / tile..(block.to[k] - self.from[k]).div_ceil(tile);
+        let (columns, rows) = (range(0), range(1));
+        let tiles = rows.flat_map(move |j| columns.clone().map(move |i| j * across + i));
+        tiles.flat_map(|tile| &self.tiles[tile]).copied().filter(|&ray| self.hits[ray].is_none())
+    }
+
+    /// The part of a ray between two depths.
+    fn segment(&self, ray: usize, [near, far]: [f64; 2]) -> Option<Segment> {
+        let Ray { enter, leave, .. } = self.rays[ray];
+        let (from, to) = (near.max(enter), far.min(leave));
+        (from < to).then_some(Segment { ray, from, to })
+    }
+
+    fn depths(&self, block: &Block) -> [f64; 2] {
+        [self.frustum.depth(block.from[2]), self.frustum.depth(block.to[2])]
     }
 
     /// The parts of the rays that are in `block` and still looking.
     fn gather(&mut self, block: &Block) {
         self.prepare();
-        let (near, far) = (self.frustum.depth(block.from[2]), self.frustum.depth(block.to[2]));
-        self.segments.clear();
-        for j in block.from[1]..block.to[1] {
-            for i in block.from[0]..block.to[0] {
-                let ray = (j - self.from[1]) * self.size[0] + (i - self.from[0]);
-                let Ray { enter, leave, .. } = self.rays[ray];
-                let (from, to) = (near.max(enter), far.min(leave));
-                if from < to && self.hits[ray].is_none() {
-                    self.segments.push(Segment { ray, from, to });
-                }
-            }
-        }
+        let depths = self.depths(block);
+        let mut segments = std::mem::take(&mut self.segments);
+        segments.clear();
+        segments.extend(self.looking(block).filter_map(|ray| self.segment(ray, depths)));
+        self.segments = segments;
     }
 
     fn point(&self, ray: usize, depth: f64) -> [f64; 3] {
         self.rays[ray].point(depth, &self.frustum.scene.space)
     }
 
-    /// Evaluates the program at samples of each segment and sorts the rays: a cap, a bracket, perhaps a summit, nothing.
-    fn sample(&mut self, program: &Program, sampler: &mut Sampler) {
+    /// Evaluates the program at some of the samples of some segments, where they are not known yet.
+    fn fill(&mut self, which: &[usize], steps: &[usize], program: &Program, sampler: &mut Sampler) {
         self.columns.clear();
-        for segment in &self.segments {
-            for step in 0..SAMPLES {
-                let point = self.rays[segment.ray].point(segment.at(step), &self.frustum.scene.space);
-                self.columns.push(point);
+        let mut asked = Vec::with_capacity(which.len() * steps.len());
+        for &n in which {
+            let segment = self.segments[n];
+            for &step in steps {
+                let known = self.known[segment.ray];
+                if step == 0 && known.0 == segment.from {
+                    self.samples[n][0] = known.1;
+                } else {
+                    let point = self.point(segment.ray, segment.at(step));
+                    self.columns.push(point);
+                    asked.push((n, step));
+                }
             }
         }
         self.columns.evaluate(program, sampler);
+        for ((n, step), &value) in asked.into_iter().zip(&self.columns.values) {
+            self.samples[n][step] = value;
+        }
+    }
+
+    /// Evaluates the program at samples of each segment and sorts the rays: a cap, a bracket, perhaps a summit, nothing. A few samples
+    /// first; more only where the ray may pass close by.
+    fn sample(&mut self, program: &Program, sampler: &mut Sampler) {
+        self.samples.clear();
+        self.samples.resize(self.segments.len(), [f64::NAN; SAMPLES]);
         self.brackets.clear();
         self.summits.clear();
-        let segments = std::mem::take(&mut self.segments);
-        for (segment, values) in segments.iter().zip(self.columns.values.chunks_exact(SAMPLES)) {
-            match values.iter().position(|&v| v >= 0.0) {
-                Some(0) if segment.from <= self.rays[segment.ray].enter => {
-                    self.hits[segment.ray] = Some(self.rays[segment.ray].cap());
+        let all: Vec<usize> = (0..self.segments.len()).collect();
+        self.fill(&all, &ENDS, program, sampler);
+        if is_far(&self.samples) {
+            self.remember();
+            return;
+        }
+        self.fill(&all, &[3], program, sampler);
+        let open: Vec<usize> =
+            all.into_iter().filter(|&n| !self.sort(n, &COARSE) && is_open(&self.samples[n])).collect();
+        if !open.is_empty() {
+            self.fill(&open, &BETWEEN, program, sampler);
+            for n in open {
+                if !self.sort(n, &[0, 1, 2, 3, 4, 5, 6]) {
+                    self.summits.extend(self.segments[n].summit(&self.samples[n]));
                 }
-                Some(0) => self.brackets.push(segment.bracket(values, 0, 0)),
-                Some(first) => self.brackets.push(segment.bracket(values, first - 1, first)),
-                None => self.summits.extend(segment.summit(values)),
             }
         }
-        self.segments = segments;
+        self.remember();
+    }
+
+    /// Keeps the last samples of the segments.
+    fn remember(&mut self) {
+        for (segment, values) in self.segments.iter().zip(&self.samples) {
+            self.known[segment.ray] = (segment.to, values[SAMPLES - 1]);
+        }
+    }
+
+    /// Whether one of these samples of a segment is inside; it becomes a cap or a bracket then.
+    fn sort(&mut self, n: usize, steps: &[usize]) -> bool {
+        let (segment, values) = (self.segments[n], &self.samples[n]);
+        let Some(first) = steps.iter().position(|&step| values[step] >= 0.0) else { return false };
+        if first > 0 {
+            self.brackets.push(segment.bracket(values, steps[first - 1], steps[first]));
+        } else if segment.from <= self.rays[segment.ray].enter {
+            self.hits[segment.ray] = Some(self.rays[segment.ray].cap());
+        } else {
+            self.brackets.push(segment.bracket(values, 0, 0));
+        }
+        true
     }
 
     /// Climbs to the maxima between samples; those that reach the inside become brackets.
@@ -364,15 +378,15 @@ impl<'a, T, F> Caster<'a, T, F> {
 
     /// Narrows the brackets, then takes the normals.
     fn solve(&mut self, program: &Program, sampler: &mut Sampler) {
-        let tolerance = 1e-11 * (self.frustum.far - self.frustum.near);
+        let tolerance = self.aim.tolerance * (self.frustum.far - self.frustum.near);
         let mut active: Vec<usize> = (0..self.brackets.len()).collect();
-        for step in 0..ROOT_STEPS {
+        for _ in 0..ROOT_STEPS {
             active.retain(|&b| self.brackets[b].width() > tolerance);
             if active.is_empty() {
                 break;
             }
             self.columns.clear();
-            let depths: Vec<f64> = active.iter().map(|&b| self.brackets[b].estimate(step)).collect();
+            let depths: Vec<f64> = active.iter().map(|&b| self.brackets[b].estimate(0.4 * tolerance)).collect();
             for (&b, &depth) in active.iter().zip(&depths) {
                 let point = self.point(self.brackets[b].ray, depth);
                 self.columns.push(point);
@@ -399,8 +413,13 @@ impl<'a, T, F> Caster<'a, T, F> {
 
     /// The normal of the plane through a hit and, of its neighbours in the row and in the column, those nearest in depth.
     fn plane(&self, ray: usize, depth: f64) -> Option<[f64; 3]> {
-        let [columns, rows] = self.size;
-        let (i, j) = (ray % columns, ray / columns);
+        // The grid that the ray is in: that of the whole tile, or that of its cell.
+        let [columns, rows] = match self.aim.pattern {
+            Pattern::Middles => self.size,
+            Pattern::Corners => self.size.map(|n| n + 1),
+            Pattern::Shares(fine, _) => [fine; 2],
+        };
+        let (i, j) = (ray % columns, ray % (columns * rows) / columns);
         let here = self.point(ray, depth);
         let edge = |before: Option<usize>, after: Option<usize>| {
             let hits = [before, after].into_iter().flatten().filter_map(|ray| Some((ray, self.hits[ray]?.depth)));
@@ -415,6 +434,13 @@ impl<'a, T, F> Caster<'a, T, F> {
 
     /// Turns depths on rays into hits.
     fn normals(&mut self, found: &[(usize, f64)], program: &Program, sampler: &mut Sampler) {
+        if !self.aim.normals {
+            for &(ray, depth) in found {
+                let direction = self.rays[ray].direction;
+                self.hits[ray] = Some(self.rays[ray].hit(depth, direction));
+            }
+            return;
+        }
         self.columns.clear();
         for &(ray, depth) in found {
             let point = self.point(ray, depth);
@@ -433,8 +459,9 @@ impl<'a, T, F> Caster<'a, T, F> {
 
 impl<T: Send, F: Fn(Tile<'_>) -> T + Sync> Visitor for Caster<'_, T, F> {
     fn wants(&mut self, block: &Block) -> bool {
-        self.gather(block);
-        !self.segments.is_empty()
+        self.prepare();
+        let depths = self.depths(block);
+        self.looking(block).any(|ray| self.segment(ray, depths).is_some())
     }
 
     fn uniform(&mut self, block: &Block, inside: bool) {
@@ -466,7 +493,9 @@ impl<T: Send, F: Fn(Tile<'_>) -> T + Sync> Visitor for Caster<'_, T, F> {
         }
         self.mend();
         let finish = self.finish;
-        self.result = Some(finish(Tile { from: self.from, size: self.size, hits: &self.hits }));
-        (self.rays, self.hits, self.columns) = (Vec::new(), Vec::new(), Columns::default());
+        self.result = Some(finish(Tile { from: self.from, size: self.size, hits: &self.hits, places: &self.places }));
+        // What is kept until all tasks are done is the result alone.
+        (self.places, self.rays, self.hits, self.known) = Default::default();
+        (self.tiles, self.segments, self.samples, self.columns) = Default::default();
     }
 }

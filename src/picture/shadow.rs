@@ -3,7 +3,7 @@
 use super::camera::Camera;
 use super::extent::Extent;
 use super::raycast::Space;
-use super::rays::{Scene, cast};
+use super::rays::{Aim, Pattern, Scene, cast_on};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::sampler::Counters;
 use crate::vm::Shape;
@@ -22,7 +22,15 @@ pub struct Shadows {
 const SOFT: f64 = 2.5;
 
 impl Shadows {
-    /// Casts `side` x `side` parallel rays from the light into the space; `towards` points to the light. Also what that cost.
+    /// What the light sees, in `side` x `side` cells; `towards` points to it.
+    #[must_use]
+    pub fn scene(space: Space, towards: [f64; 3], side: usize) -> Scene {
+        let camera = Camera::parallel(towards.map(|v| -v), &Extent::whole(space));
+        Scene { camera, space, rays: [side, side], tile: 8 }
+    }
+
+    /// Casts `side` x `side` parallel rays from the light into the space, as a part of a task whose progress was begun already; `towards`
+    /// points to the light. Also what that cost.
     ///
     /// # Errors
     /// [`Cancelled`] soon after the interrupt was set.
@@ -33,10 +41,13 @@ impl Shadows {
         side: usize,
         interrupt: &Interrupt,
     ) -> Result<(Self, Counters), Cancelled> {
-        let camera = Camera::parallel(towards.map(|v| -v), &Extent::whole(space));
-        let scene = Scene { camera, space, rays: [side, side], tile: 8 };
+        let scene = Self::scene(space, towards, side);
+        let camera = scene.camera;
+        // Nobody sees depths: a small part of the distance of two rays is enough.
+        let aim = Aim { pattern: Pattern::Middles, tolerance: 0.05 / side as f64, normals: false };
         let depth = |hit: &Option<super::rays::Hit>| hit.map_or(f32::INFINITY, |hit| hit.depth as f32);
-        let (tiles, counters) = cast(shape, &scene, |tile| tile.hits.iter().map(depth).collect::<Vec<_>>(), interrupt)?;
+        let (tiles, counters) =
+            cast_on(shape, &scene, aim, |tile| tile.hits.iter().map(depth).collect::<Vec<_>>(), interrupt)?;
         let mut depths = vec![f32::INFINITY; side * side];
         for (from, size, tile) in tiles {
             for (row, tile) in tile.chunks_exact(size[0]).enumerate() {

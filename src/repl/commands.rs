@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::cli::arguments::Making;
 use crate::cli::{make, session, status::Status, text};
 use crate::host::{Disk, Host};
-use crate::model::request::{Kind, Output};
+use crate::model::request::{FORMATS, Kind, Output};
 use crate::{builtins, cli};
 
 use super::Repl;
@@ -234,12 +234,19 @@ fn unquoted(file: &str) -> &str {
 }
 
 fn mesh(repl: &mut Repl, argument: &str) -> Flow {
-    make_file(repl, argument, |kind| kind == Kind::Mesh, ":mesh writes .stl .obj .ply; :render writes pictures")
+    let wanted = |kind| kind == Kind::Mesh;
+    make_file(repl, argument, wanted, &format!(":mesh writes {}; :render writes pictures", extensions(wanted)))
 }
 
 fn render(repl: &mut Repl, argument: &str) -> Flow {
-    let wanted = |kind| kind == Kind::Picture || kind == Kind::Animation;
-    make_file(repl, argument, wanted, ":render writes .png .gif; :mesh writes meshes")
+    let wanted = |kind| matches!(kind, Kind::Picture | Kind::Animation | Kind::Outlines);
+    make_file(repl, argument, wanted, &format!(":render writes {}; :mesh writes meshes", extensions(wanted)))
+}
+
+/// The extensions of the formats that hold such things.
+fn extensions(wanted: fn(Kind) -> bool) -> String {
+    let all = FORMATS.iter().filter(|format| wanted(format.3)).map(|format| format!(".{}", format.1));
+    all.collect::<Vec<_>>().join(" ")
 }
 
 fn make_file(repl: &mut Repl, argument: &str, wanted: fn(Kind) -> bool, otherwise: &str) -> Flow {
@@ -284,7 +291,9 @@ fn set(repl: &mut Repl, argument: &str) -> Flow {
 
 fn settings(making: &Making) -> String {
     let mut lines = Vec::new();
-    let mut say = |name: &str, value: Option<String>| lines.extend(value.map(|value| format!("{name} {value}")));
+    let mut say = |name: &str, value: Option<String>| {
+        lines.extend(value.map(|value| format!("{name} {value}").trim_end().to_owned()))
+    };
     say("object", making.subject.object.clone());
     say("resolution", making.fineness.resolution.map(|n| n.to_string()));
     say("cell", making.fineness.cell.map(|length| length.to_string()));
@@ -293,6 +302,11 @@ fn settings(making: &Making) -> String {
     say("camera", making.look.camera.map(|[around, above]| format!("{around},{above}")));
     say("palette", making.look.palette.clone());
     say("supersample", making.look.supersample.map(|n| n.to_string()));
+    say("axes", making.look.axes.then(String::new));
+    say(
+        "slices",
+        making.look.slices.map(|slices| format!("x{}={}:{}:{}", slices.coordinate, slices.lo, slices.hi, slices.count)),
+    );
     say("frames", making.motion.frames.map(|n| n.to_string()));
     say("fps", making.motion.fps.map(|n| n.to_string()));
     for section in &making.subject.at {

@@ -102,8 +102,27 @@ where
     V: Visitor,
     F: Fn(&Block) -> V + Sync,
 {
+    interrupt.begin(points(lattice));
+    walk_on(lattice, shape, visitor, interrupt)
+}
+
+/// Sample points of a lattice: what a walk advances the progress by.
+#[must_use]
+pub fn points(lattice: &impl Lattice) -> u64 {
+    Block { from: [0; 3], to: lattice.counts() }.points()
+}
+
+/// The same as a part of a greater task, whose progress was begun already.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+pub fn walk_on<L, V, F>(lattice: &L, shape: &Shape, visitor: F, interrupt: &Interrupt) -> Result<Walk<V>, Cancelled>
+where
+    L: Lattice,
+    V: Visitor,
+    F: Fn(&Block) -> V + Sync,
+{
     let whole = Block { from: [0; 3], to: lattice.counts() };
-    interrupt.begin(whole.points());
     let mut counters = Counters::default();
     let tasks = gather_tasks(lattice, shape, whole, &mut counters, interrupt)?;
     let done: Vec<(V, Counters)> = tasks
@@ -319,9 +338,11 @@ fn fixed(value: f64) -> Interval {
 }
 
 /// The children of `block`, axis 2 slowest: on each axis at most 4, each a leaf times a power of 4 long (the last one may be shorter), never
-/// shorter than `floor`. So all boxes of a lattice lie on multiples of their own length.
+/// shorter than `floor`. So all boxes of a lattice lie on multiples of their own length. The power is the same on all axes: a long box
+/// is cut across until it is about a cube of leaves, since cutting it lengthwise too gives needles, whose intervals tell little.
 fn split(block: &Block, leaf: [usize; 3], floor: [usize; 3], out: &mut Vec<Block>) {
-    let steps: [usize; 3] = std::array::from_fn(|d| step(block.to[d] - block.from[d], leaf[d], floor[d]));
+    let scale = (0..3).map(|d| scale(block.to[d] - block.from[d], leaf[d], floor[d])).max().unwrap_or(1);
+    let steps: [usize; 3] = std::array::from_fn(|d| leaf[d].saturating_mul(scale).max(floor[d]));
     let starts = |d: usize| (block.from[d]..block.to[d]).step_by(steps[d]);
     out.clear();
     for z in starts(2) {
@@ -334,11 +355,11 @@ fn split(block: &Block, leaf: [usize; 3], floor: [usize; 3], out: &mut Vec<Block
     }
 }
 
-/// The length of the children of a side: the largest leaf times power of 4 that is shorter than the side, and at least `floor`.
-fn step(length: usize, leaf: usize, floor: usize) -> usize {
-    let mut step = leaf;
-    while step.saturating_mul(4) < length {
-        step *= 4;
+/// The largest power of 4 whose product with `leaf` is shorter than the side; 1 for a side that is not to be cut.
+fn scale(length: usize, leaf: usize, floor: usize) -> usize {
+    let mut scale = 1_usize;
+    while length > floor && leaf.saturating_mul(scale).saturating_mul(4) < length {
+        scale *= 4;
     }
-    step.max(floor)
+    scale
 }

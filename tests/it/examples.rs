@@ -70,7 +70,8 @@ fn number_after(text: &str, words: &str) -> Option<f64> {
 /// The bytes of what `-o` makes of an object.
 fn made(session: &mut Session, host: &Memory, to: &str, options: &Options) -> Vec<Vec<u8>> {
     let output = Output::parse(to, None).expect("an output");
-    let written = request::write(session, &output, options, &mut Vec::new()).unwrap_or_else(|told| panic!("{to}: {told:?}"));
+    let written =
+        request::write(session, &output, options, &mut Vec::new()).unwrap_or_else(|told| panic!("{to}: {told:?}"));
     written.files.iter().map(|file| host.read(file, usize::MAX).expect("written")).collect()
 }
 
@@ -177,7 +178,10 @@ fn every_block_of_the_manual_runs_and_each_value_is_right() {
         let expected: Vec<f64> = block.lines().filter_map(value).collect();
         assert_eq!(found.len(), expected.len(), "line {line}: a value for each bare expression\n{block}\n{found:?}");
         for (found, expected) in found.iter().zip(&expected) {
-            assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1.0), "line {line}: {found}, not {expected}");
+            assert!(
+                (found - expected).abs() <= 1e-12 * expected.abs().max(1.0),
+                "line {line}: {found}, not {expected}"
+            );
         }
         compared += found.len();
     }

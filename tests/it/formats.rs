@@ -191,11 +191,11 @@ fn polygon(corners: usize, radius: f64, centre: [f64; 2]) -> Vec<[f64; 2]> {
 #[test]
 fn svg_draws_rings_with_their_holes_the_right_way_up() {
     let ring = svg::Slice {
-        height: Some(0.25),
+        marks: vec![("x3".into(), 0.25)],
         loops: vec![polygon(90, 1., [0., 1.]), polygon(90, 0.5, [0., 1.])],
         colour: Some([255, 0, 0]),
     };
-    let empty = svg::Slice { height: Some(9.), ..Default::default() };
+    let empty = svg::Slice { marks: vec![("x3".into(), 9.)], ..Default::default() };
     let mut bytes = Vec::new();
     svg::write(&[ring, empty], [-2., -2.], [2., 2.], "gob_ring", &mut bytes).unwrap();
     let text = String::from_utf8(bytes).unwrap();

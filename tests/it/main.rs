@@ -18,6 +18,7 @@ mod measure;
 mod mesh;
 mod number;
 mod oracle;
+mod outputs;
 mod parser;
 mod picture;
 mod plots;

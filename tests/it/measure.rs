@@ -3,14 +3,14 @@
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::model::Value;
-use yont::model::request::measured::Dimension;
 use yont::model::request;
+use yont::model::request::measured::Dimension;
 use yont::model::value::Scalar;
 use yont::number::Ternary;
 use yont::surface::contour::{Contour, outlines};
 use yont::surface::measure::Integrals;
-use yont::syntax::Mode;
 use yont::surface::{Grid, Measures, Mesh, SurfaceError, extract, measure};
+use yont::syntax::Mode;
 use yont::vm::Demand;
 
 use crate::solids::{Case, Ex, KNOWN, ball, shape_of};

@@ -12,7 +12,7 @@ use yont::picture::rays::{Hit, Scene, cast};
 use yont::picture::{Camera, Image, Palette, Projection, View};
 use yont::vm::{Demand, Program, Shape};
 
-use crate::solids::{Ex, KNOWN, ball, shape_of};
+use crate::solids::{Ex, HARD, KNOWN, ball, shape_of};
 
 fn cube(half: f64) -> Space {
     Space { lo: [-half; 3], hi: [half; 3] }
@@ -432,4 +432,59 @@ fn a_ball_does_not_shade_its_own_front() {
         [0.6, 0.0].map(|shadow| shot(&shape_of(ball, 3, Demand::Sign), cube(1.1), &Style { shadow, ..style }).image);
     let apart = with.rgba.iter().zip(&without.rgba).map(|(a, b)| a.abs_diff(*b)).max();
     assert!(apart <= Some(12), "{apart:?}");
+}
+
+/// What pixels are without a choice of rays: the mean light of 2 x 2 pixels of a picture twice as large.
+fn halved(image: &Image) -> Vec<[f32; 3]> {
+    use yont::picture::palette::linear;
+    let share = |i: usize, j: usize| image.pixel(i, j).map(linear);
+    let (width, height) = (image.width / 2, image.height / 2);
+    let places = (0..width * height).map(|n| (2 * (n % width), 2 * (n / width)));
+    let mean = |(i, j): (usize, usize)| {
+        let four = [share(i, j), share(i + 1, j), share(i, j + 1), share(i + 1, j + 1)];
+        std::array::from_fn(|k| four.iter().map(|light| light[k]).sum::<f32>() / 4.0)
+    };
+    places.map(mean).collect()
+}
+
+#[test]
+fn few_rays_show_what_many_rays_show() {
+    let names =
+        ["ball", "box", "torus", "Steinmetz solid", "twisted bar", "ball cut by all six faces", "gyroid in a ball"];
+    for case in names.map(|name| KNOWN.iter().chain(HARD).find(|case| case.name == name).expect(name)) {
+        let space = Space { lo: case.half.map(|h| -h), hi: case.half };
+        let style = Style { size: [120, 90], shadow: 0.0, ..Style::default() };
+        let few = shot(&case.shape(), space, &style);
+        let many = shot(&case.shape(), space, &Style { size: [240, 180], supersample: 1, ..style });
+        let apart: Vec<f32> = halved(&many.image)
+            .iter()
+            .enumerate()
+            .map(|(n, light)| {
+                let pixel = few.image.pixel(n % 120, n / 120).map(yont::picture::palette::linear);
+                (0..3).map(|k| (pixel[k] - light[k]).abs()).fold(0.0, f32::max)
+            })
+            .collect();
+        let (mean, off) = (apart.iter().sum::<f32>() / apart.len() as f32, apart.iter().filter(|&&v| v > 0.05).count());
+        assert!(mean < 0.003 && off < 108, "{}: {mean} on average, {off} pixels far off", case.name);
+        assert!(few.counters.points < many.counters.points, "{}", case.name);
+    }
+}
+
+#[test]
+fn a_transparent_background_leaves_the_object_alone() {
+    let style = Style { size: [60, 45], ..Style::default() };
+    let shape = shape_of(ball, 3, Demand::Sign);
+    let [clear, solid] =
+        [true, false].map(|transparent| shot(&shape, cube(1.0), &Style { transparent, ..style }).image);
+    let mut edges = 0;
+    for (clear, solid) in clear.rgba.chunks(4).zip(solid.rgba.chunks(4)) {
+        match clear[3] {
+            0 => assert_eq!(clear, [0; 4]),
+            255 => assert_eq!(clear, solid),
+            _ => edges += 1,
+        }
+    }
+    assert_eq!(clear.pixel(0, 0)[3], 0);
+    assert_eq!(clear.pixel(30, 22)[3], 255);
+    assert!((50..500).contains(&edges), "{edges}");
 }

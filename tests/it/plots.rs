@@ -9,7 +9,7 @@ use yont::picture::extent::Extent;
 use yont::picture::graph::{Curve, Graph, follow, stack};
 use yont::picture::image::Image;
 use yont::picture::isolines::Field;
-use yont::picture::legend::{Legend, beside, member_colour};
+use yont::picture::legend::{Legend, Telling, beside, member_colour};
 use yont::picture::palette::Palette;
 use yont::picture::plot::Window;
 use yont::picture::raycast::{Space, Style, raycast};
@@ -317,14 +317,14 @@ fn compiled_shapes_give_what_closures_give_with_any_number_of_threads() {
 fn a_group_of_sections_is_told_apart_by_its_key() {
     let sections =
         |k: usize| field(window(-2., 2.), 101, move |x, y| 0.4 * (k + 1) as f64 - (x - 0.2 * k as f64).hypot(y));
-    let members: Vec<(String, Field)> =
-        (0..4).map(|k| (format!("x4 = {}", number(0.5 * k as f64)), sections(k))).collect();
-    let image = contours::group(&members, 0., &map("sections", vec![], None), 640, 480).unwrap();
+    let members: Vec<Field> = (0..4).map(sections).collect();
+    let telling = Telling::names((0..4).map(|k| format!("x4 = {}", number(0.5 * k as f64))));
+    let image = contours::group(&members, &telling, 0., &map("sections", vec![], None), [640, 480]).unwrap();
     look(&image, "sections");
-    let curves: Vec<(String, Curve)> =
-        (0..3).map(|k| (format!("x4 = {k}"), curve(-1., 1., move |x| (k as f64 + 1.) * x + 0.2 * k as f64))).collect();
+    let curves: Vec<Curve> = (0..3).map(|k| curve(-1., 1., move |x| (k as f64 + 1.) * x + 0.2 * k as f64)).collect();
+    let telling = Telling::names((0..3).map(|k| format!("x4 = {k}")));
     let graph = Graph { title: "curves".into(), name: "gob_f".into(), ..Graph::default() };
-    let curves = graph::group(&curves, &graph, &Axis::new("x1", -1., 1.), 640, 480).unwrap();
+    let curves = graph::group(&curves, &telling, &graph, &Axis::new("x1", -1., 1.), [640, 480]).unwrap();
     look(&curves, "curves");
     for (picture, count) in [(&image, 4), (&curves, 3)] {
         for k in 0..8 {

@@ -86,10 +86,10 @@ fn a_program_is_kept_when_the_prompt_follows() {
     assert!(ran.out.contains("\n2\n") && ran.out.contains("resolution 8"), "{}", ran.out);
 }
 
-type Terminal = Session<UnixProcess, PtyStream>;
+pub(crate) type Terminal = Session<UnixProcess, PtyStream>;
 
 /// Waits for an answer and the prompt after it.
-fn answer(terminal: &mut Terminal, words: &str) {
+pub(crate) fn answer(terminal: &mut Terminal, words: &str) {
     terminal.expect(words).expect(words);
     terminal.expect("yont>").expect("a prompt");
 }
@@ -143,7 +143,7 @@ fn failed_inputs_stay_in_the_history() {
     let state = state();
     let mut first = terminal(state.path());
     first.send_line("1 +* 3").expect("typed");
-    first.expect("error").expect("a message");
+    answer(&mut first, "error");
     first.send(ControlCode::EndOfTransmission).expect("typed");
     first.expect(expectrl::Eof).expect("Ctrl-D leaves");
     let mut second = terminal(state.path());

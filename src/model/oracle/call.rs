@@ -102,7 +102,8 @@ impl Oracle {
         }
         match (name, values.as_slice()) {
             ("CLAMP", [x, lo, hi]) => {
-                let above = pair(x.clone(), lo.clone(), &|a, b| Ok(maximum(a, b)))?;
+                // The maximum of two, but undefined where one is.
+                let above = pair(x.clone(), lo.clone(), &|a, b| Ok(-minimum(-a, -b)))?;
                 pair(above, hi.clone(), &|a, b| Ok(minimum(a, b)))
             }
             ("LERP" | "MIX", [a, b, t]) => {

@@ -276,7 +276,9 @@ pub(super) fn number(value: Value) -> Answer<f64> {
 /// An element of an array, indexed from 1; undefined where an index, which must then depend on a coordinate, is not of the array.
 fn element(value: Value, indices: &[f64]) -> Answer {
     indices.iter().try_fold(value, |value, &i| match value {
-        Value::Array(list) if i.fract() != 0.0 || !(1.0..=list.len() as f64).contains(&i) => Ok(Value::Number(f64::NAN)),
+        Value::Array(list) if i.fract() != 0.0 || !(1.0..=list.len() as f64).contains(&i) => {
+            Ok(Value::Number(f64::NAN))
+        }
         Value::Array(mut list) => Ok(list.swap_remove(i as usize - 1)),
         _ => Err(Beyond::Unknown("index".into())),
     })

@@ -6,7 +6,7 @@ use std::io::Write;
 use serde_json::{Map, Value, json};
 
 use crate::diagnostic::Diagnostic;
-use crate::field::Coordinate;
+use crate::field::{Coordinate, NodeId};
 use crate::number::{Algebra, Binary};
 use crate::surface::contour::outlines;
 use crate::surface::marching::SurfaceError;
@@ -17,7 +17,7 @@ use super::fields::{Sampled, at_points};
 use super::make::{Workshop, Written, cancelled, make};
 use super::measured::{Dimension, Measured};
 use super::output::Output;
-use super::subject::{Axis, Subject, Time};
+use super::subject::{Axis, Level, Place, Sequence, Subject};
 use super::{Options, Timing, View};
 use crate::model::environment::{self, Object, Role};
 use crate::model::session::Session;
@@ -31,6 +31,10 @@ type Asked<T> = Result<T, Vec<Diagnostic>>;
 /// Messages whose category decides the exit status.
 pub fn write(session: &mut Session, output: &Output, options: &Options, standard: &mut dyn Write) -> Asked<Written> {
     let subject = subject(session, &options.view, &options.timing)?;
+    let subject = match &options.slices {
+        Some(slices) => subject.sliced(slices).map_err(|d| vec![d])?,
+        None => subject,
+    };
     let host = session.host.clone();
     let shop = Workshop { graph: &session.graph, limits: &session.limits, interrupt: &session.interrupt, host: &*host };
     make(&shop, &subject, output, options, standard).map_err(|d| vec![d])
@@ -43,6 +47,7 @@ pub fn write(session: &mut Session, output: &Output, options: &Options, standard
 pub fn measure(session: &mut Session, view: &View) -> Asked<Measured> {
     let subject = subject(session, view, &Timing::default())?;
     let one = |d: Diagnostic| vec![d];
+    subject.shown_by("a measurement", &[]).map_err(one)?;
     let grid = subject.grid(view.cells, &session.limits).map_err(one)?;
     let shape = subject.shape(&session.graph, Demand::Sign, &session.limits).map_err(one)?;
     let interrupt = &session.interrupt;
@@ -101,8 +106,7 @@ pub fn sample(session: &mut Session, view: &View, points: &[Vec<f64>], gradient:
             Diagnostic::error("short-point", title).help(format!("give each point {} numbers, or --at {c}=...", c.0)),
         ]);
     }
-    let subject =
-        Subject { name: object.name.clone(), span: None, node: object.node, axes: Vec::new(), fixed, time: None };
+    let subject = Subject::of(object.name.clone(), object.node, fixed);
     match at_points(&subject, &session.graph, points, gradient, &session.limits, &session.interrupt) {
         Ok(Ok(values)) => Ok(values),
         Ok(Err(_)) => Err(vec![cancelled()]),
@@ -127,7 +131,7 @@ pub fn info(session: &mut Session) -> Asked<Vec<Info>> {
     for name in session.objects() {
         match session.object(Some(&name)) {
             Ok(object) => {
-                let operations = crate::field::expand::reachable(&session.graph, object.node).len();
+                let operations = crate::field::operations(&session.graph, object.node);
                 all.push(Info { object, operations });
             }
             Err(mut errors) => told.append(&mut errors),
@@ -198,28 +202,23 @@ pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Sub
     let mut object = session.object(view.object.as_deref())?;
     override_axes(&mut object, view);
     let mut told = Vec::new();
-    let mut fixed = Vec::new();
-    let mut time = None;
+    let mut subject = Subject::of(object.name.clone(), object.node, Place::new());
     for axis in object.axes.iter().filter(|a| !a.is_space()) {
         let steps = axis.steps(session.limits.frames);
-        match (&axis.role, steps.first()) {
-            (Role::Constant(value), _) => fixed.push((axis.coordinate, *value)),
-            (Role::T, Some(&first)) => {
-                fixed.push((axis.coordinate, first));
-                let values = frames(&steps, axis.range, timing.frames);
-                time = Some(Time { coordinate: axis.coordinate, values });
-            }
-            (Role::T, None) => told.push(no_time(&object, axis.coordinate)),
-            (other, _) => told.push(not_shown(&object, axis.coordinate, other)),
+        if let Err(diagnostic) = cast(&mut subject, axis, steps, timing) {
+            told.push(diagnostic);
         }
     }
-    if let [level] = object.levels[..] {
-        if level != 0.0 {
-            let level = session.graph.constant(level);
-            object.node = session.graph.binary(Binary::Sub, object.node, level);
+    match object.levels[..] {
+        [0.0] => {}
+        [level] => subject.node = lower(session, object.node, level),
+        _ => {
+            let mut levels = object.levels.clone();
+            levels.sort_by(f64::total_cmp);
+            levels.dedup();
+            let level = |value| Level { value, node: lower(session, object.node, value) };
+            subject.levels = levels.into_iter().map(level).collect();
         }
-    } else {
-        told.push(several_levels(&object));
     }
     let bounds = object.bounds().unwrap_or_else(|d| {
         told.push(d);
@@ -228,14 +227,37 @@ pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Sub
     if !told.is_empty() {
         return Err(told);
     }
-    let axes = object
+    subject.axes = object
         .space()
         .iter()
         .zip(bounds)
         .map(|(a, (lo, hi))| Axis { coordinate: a.coordinate, range: [lo, hi] })
         .collect();
-    let span = session.place(&object.name);
-    Ok(Subject { name: object.name.clone(), span, node: object.node, axes, fixed, time })
+    subject.span = session.place(&object.name);
+    Ok(subject)
+}
+
+/// The function less a level.
+fn lower(session: &mut Session, node: NodeId, level: f64) -> NodeId {
+    let level = session.graph.constant(level);
+    session.graph.binary(Binary::Sub, node, level)
+}
+
+/// Gives a coordinate that is no axis its part in the subject.
+fn cast(subject: &mut Subject, axis: &environment::Axis, steps: Vec<f64>, timing: &Timing) -> Result<(), Diagnostic> {
+    let coordinate = axis.coordinate;
+    let first = *steps.first().ok_or_else(|| no_values(&subject.name, axis))?;
+    subject.fixed.push((coordinate, first));
+    let several = |values: Vec<f64>| Sequence { coordinate, values };
+    match &axis.role {
+        Role::T => subject.time = Some(several(frames(&steps, axis.range, timing.frames))),
+        Role::V => subject.columns = Some(several(steps)),
+        Role::W => subject.rows = Some(several(steps)),
+        Role::C => subject.colour = Some(several(steps)),
+        Role::Group(_) => subject.groups.push(several(steps)),
+        Role::X | Role::Y | Role::Z | Role::Constant(_) => {}
+    }
+    Ok(())
 }
 
 /// Lets `--at` and `--bounds` win over the script.
@@ -270,25 +292,13 @@ fn frames(steps: &[f64], range: Option<(f64, f64)>, asked: Option<usize>) -> Vec
     }
 }
 
-fn no_time(object: &Object, c: Coordinate) -> Diagnostic {
-    let title = format!("`{}` moves with {c}, which has no range", object.name);
-    Diagnostic::error("no-time", title)
+fn no_values(name: &str, axis: &environment::Axis) -> Diagnostic {
+    let c = axis.coordinate;
+    let (code, title) = match axis.role {
+        Role::T => ("no-time", format!("`{name}` moves with {c}, which has no range")),
+        _ => ("no-values", format!("`{name}` varies with {c}, which has the type {} and no range", role(&axis.role))),
+    };
+    Diagnostic::error(code, title)
         .help(format!("add to the script: {c}min = 0; {c}max = 1; {c}_delta = 0.1;"))
-        .help(format!("or show one moment: --at {c}=0"))
-}
-
-fn not_shown(object: &Object, c: Coordinate, shown: &Role) -> Diagnostic {
-    let title = format!("{c} of `{}` has the type {}, which this output cannot show yet", object.name, role(shown));
-    Diagnostic::error("type-not-shown", title)
-        .help(format!("fix it at one value: --at {c}=0, or `{c} : CONSTANT = 0;`"))
-}
-
-fn several_levels(object: &Object) -> Diagnostic {
-    let title =
-        format!("`{}` has {} levels, which this output cannot show together yet", object.name, object.levels.len());
-    Diagnostic::error("type-not-shown", title).help(format!(
-        "choose one: `{} : CONSTANT = {};`",
-        object.name,
-        object.levels.first().unwrap_or(&0.0)
-    ))
+        .help(format!("or show one section: --at {c}=0"))
 }

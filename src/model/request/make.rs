@@ -12,9 +12,6 @@ use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
 use crate::picture::Image;
 use crate::picture::field::sample;
-use crate::surface::check::{Topology, check};
-use crate::surface::marching::{Extraction, SurfaceError, extract};
-use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
 use crate::vm::{Demand, Shape};
 
@@ -72,48 +69,24 @@ pub fn make(
     match output.format.kind() {
         Kind::Mesh => making.meshes()?,
         Kind::Picture => making.pictures()?,
+        Kind::Outlines => making.outlines()?,
         Kind::Animation => making.animation()?,
         Kind::Samples => making.samples()?,
     }
     Ok(making.written)
 }
 
-struct Making<'a> {
-    shop: &'a Workshop<'a>,
-    subject: &'a Subject,
-    output: &'a Output,
-    options: &'a Options,
+/// One output on its way.
+pub(super) struct Making<'a> {
+    pub(super) shop: &'a Workshop<'a>,
+    pub(super) subject: &'a Subject,
+    pub(super) output: &'a Output,
+    pub(super) options: &'a Options,
     standard: &'a mut dyn Write,
-    written: Written,
+    pub(super) written: Written,
 }
 
 impl Making<'_> {
-    fn meshes(&mut self) -> Result<(), Diagnostic> {
-        self.need(3, "a mesh")?;
-        let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
-        let shape = self.shape(Demand::Sign)?;
-        for (n, moment) in self.moments().into_iter().enumerate() {
-            let begun = Instant::now();
-            let extraction = extract(&self.subject.at(&shape, moment), &grid, self.shop.limits, self.shop.interrupt)
-                .map_err(unmade)?;
-            let report = &extraction.report;
-            self.undefined(&report.counters);
-            if extraction.mesh.is_empty() {
-                return Err(empty(self.subject, Some(moment), Some(report.samples)));
-            }
-            let topology = check(&extraction.mesh).map_err(|fault| {
-                Diagnostic::error("mesh-fault", format!("the mesh of `{}` has a fault: {fault}", self.subject.name))
-                    .category(Category::Result)
-                    .help("nothing was written; another --resolution usually avoids it")
-            })?;
-            self.cut(&extraction);
-            self.line(n, &mesh_line(&extraction, &topology), begun);
-            let format = self.output.format;
-            self.put(n, &mut |out| write_mesh(format, &extraction.mesh, out))?;
-        }
-        Ok(())
-    }
-
     fn pictures(&mut self) -> Result<(), Diagnostic> {
         let moments = self.moments();
         let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
@@ -154,11 +127,18 @@ impl Making<'_> {
         }
         let what = format!("{} frames, {}", frames.len(), picture_line(&frames[0], &counters));
         self.line(0, &what, begun);
-        let delay = 1.0 / self.options.timing.fps.clamp(0.01, 100.0);
-        self.put(0, &mut |out| export::gif::write(&frames, delay, &mut { out }))
+        let delay = self.delay();
+        let write = if self.output.format == Format::Apng { write_apng } else { write_gif };
+        self.put(0, &mut |out| write(&frames, delay, out))
+    }
+
+    /// Seconds that a frame stays.
+    pub(super) fn delay(&self) -> f64 {
+        1.0 / self.options.timing.fps.clamp(0.01, 100.0)
     }
 
     fn samples(&mut self) -> Result<(), Diagnostic> {
+        self.subject.shown_by("a sampled field", &["levels"])?;
         let cells = self.subject.along(self.options.view.cells)?;
         let space: Vec<(f64, f64)> = self.subject.bounds().iter().map(|[lo, hi]| (*lo, *hi)).collect();
         if space.is_empty() {
@@ -190,13 +170,19 @@ impl Making<'_> {
     }
 
     fn is_series(&self) -> bool {
-        matches!(self.output.target, Target::Series { .. }) || self.output.format.kind() == Kind::Animation
+        matches!(self.output.target, Target::Series { .. })
+    }
+
+    /// Whether one file holds all frames.
+    pub(super) fn holds_all(&self) -> bool {
+        let moves = self.output.format == Format::Glb && self.subject.is_single();
+        self.output.format.kind() == Kind::Animation || moves && !self.is_series()
     }
 
     /// The moments that this output shows: all frames, or the first.
-    fn moments(&mut self) -> Vec<f64> {
+    pub(super) fn moments(&mut self) -> Vec<f64> {
         let mut moments = self.subject.moments();
-        if self.is_series() {
+        if self.is_series() || self.holds_all() {
             return moments;
         }
         if let Some(time) = self.subject.time.as_ref().filter(|_| moments.len() > 1) {
@@ -209,20 +195,29 @@ impl Making<'_> {
         moments
     }
 
-    fn need(&self, axes: usize, what: &str) -> Result<(), Diagnostic> {
+    pub(super) fn need(&self, axes: usize, what: &str) -> Result<(), Diagnostic> {
         if self.subject.axes.len() == axes {
             return Ok(());
         }
         let have: Vec<String> = self.subject.axes.iter().map(|a| a.coordinate.to_string()).collect();
         let name = &self.subject.name;
         let title = format!("{what} needs {axes} axes; `{name}` has {} here: {}", have.len(), have.join(", "));
-        let help =
-            "give the missing coordinate a range (`x3min = -1; x3max = 1;` or --bounds x3=-1:1), or ask for a .png";
+        let help = if have.len() < axes {
+            "give the missing coordinate a range (`x3min = -1; x3max = 1;` or --bounds x3=-1:1), or ask for a .png"
+                .into()
+        } else {
+            let last = &have[have.len() - 1];
+            format!("cut it into slices, --slices {last}=LO:HI:N, or take one section: --at {last}=0")
+        };
         Err(Diagnostic::error("dimension", title).help(help))
     }
 
     /// Writes the n-th result to its file or to standard output.
-    fn put(&mut self, n: usize, content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> Result<(), Diagnostic> {
+    pub(super) fn put(
+        &mut self,
+        n: usize,
+        content: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Diagnostic> {
         self.shop.interrupt.tick()?;
         let path = match &self.output.target {
             Target::Standard => return to_standard(self.standard, content),
@@ -234,9 +229,9 @@ impl Making<'_> {
         Ok(())
     }
 
-    fn line(&mut self, n: usize, what: &str, begun: Instant) {
+    pub(super) fn line(&mut self, n: usize, what: &str, begun: Instant) {
         let frame = match &self.subject.time {
-            Some(time) if self.is_series() && self.output.format.kind() != Kind::Animation => {
+            Some(time) if self.is_series() => {
                 format!("frame {n} ({} = {}): ", time.coordinate, time.values[n])
             }
             _ => String::new(),
@@ -244,7 +239,7 @@ impl Making<'_> {
         self.written.lines.push(format!("{frame}{what}, {:.0} ms", begun.elapsed().as_secs_f64() * 1e3));
     }
 
-    fn undefined(&mut self, counters: &Counters) {
+    pub(super) fn undefined(&mut self, counters: &Counters) {
         if counters.undefined == 0 || self.written.notes.iter().any(|d| d.code == "undefined-points") {
             return;
         }
@@ -252,23 +247,6 @@ impl Making<'_> {
         let title = format!("`{}` is undefined at {} of the evaluated points", self.subject.name, counters.undefined);
         let fact = format!("one of them is ({}); undefined points count as outside", place.join(", "));
         self.written.notes.push(Diagnostic::warning("undefined-points", title).fact(fact));
-    }
-
-    fn cut(&mut self, extraction: &Extraction) {
-        let mut faces = Vec::new();
-        for (axis, sides) in self.subject.axes.iter().zip(extraction.report.cut) {
-            for (side, (cut, which)) in sides.into_iter().zip(["min", "max"]).enumerate() {
-                if cut {
-                    faces.push(format!("{}{which} = {}", axis.coordinate, axis.range[side]));
-                }
-            }
-        }
-        if faces.is_empty() || self.written.notes.iter().any(|d| d.code == "cut-by-space") {
-            return;
-        }
-        let title = format!("the modelling space cuts `{}` at {}", self.subject.name, faces.join(", "));
-        let help = "the mesh is capped there; widen the space if the object was to be whole";
-        self.written.notes.push(Diagnostic::note("cut-by-space", title).help(help));
     }
 }
 
@@ -281,7 +259,12 @@ pub(super) fn empty(subject: &Subject, moment: Option<f64>, samples: Option<u64>
     };
     let space: Vec<String> =
         subject.axes.iter().map(|a| format!("{} {} to {}", a.coordinate, a.range[0], a.range[1])).collect();
-    let title = format!("`{name}` is empty{when}: its function is nowhere >= 0 in the modelling space");
+    let title = if subject.levels.is_empty() {
+        format!("`{name}` is empty{when}: its function is nowhere >= 0 in the modelling space")
+    } else {
+        let levels: Vec<String> = subject.levels.iter().map(|level| level.value.to_string()).collect();
+        format!("`{name}` has no point of its levels {} in the modelling space{when}", levels.join(", "))
+    };
     let mut diagnostic = Diagnostic::error("empty-object", title)
         .category(Category::Result)
         .fact(format!("the modelling space is {}", space.join(", ")))
@@ -311,21 +294,6 @@ fn to_standard(
     }
 }
 
-fn unmade(error: SurfaceError) -> Diagnostic {
-    match error {
-        SurfaceError::Cancelled => cancelled(),
-        other => Diagnostic::error("no-mesh", other.to_string()).category(Category::Result),
-    }
-}
-
-fn mesh_line(extraction: &Extraction, topology: &Topology) -> String {
-    let Counters { points, boxes, .. } = extraction.report.counters;
-    format!(
-        "{} triangles, Euler characteristic {}, {points} points and {boxes} boxes evaluated of {} samples",
-        topology.triangles, topology.euler, extraction.report.samples
-    )
-}
-
 fn picture_line(image: &Image, counters: &Counters) -> String {
     format!(
         "{} x {} pixels, {} points and {} boxes evaluated",
@@ -333,10 +301,10 @@ fn picture_line(image: &Image, counters: &Counters) -> String {
     )
 }
 
-fn write_mesh(format: Format, mesh: &Mesh, mut out: &mut dyn Write) -> io::Result<()> {
-    match format {
-        Format::Obj => export::obj::write(mesh, &mut out),
-        Format::Ply => export::ply::write(mesh, &mut out),
-        _ => export::stl::write(mesh, &mut out),
-    }
+fn write_gif(frames: &[Image], delay: f64, out: &mut dyn Write) -> io::Result<()> {
+    export::gif::write(frames, delay, &mut { out })
+}
+
+fn write_apng(frames: &[Image], delay: f64, out: &mut dyn Write) -> io::Result<()> {
+    export::apng::write(frames, delay, &mut { out })
 }

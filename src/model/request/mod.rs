@@ -2,11 +2,14 @@
 //! line and the prompt, which only read options and show results.
 
 mod ask;
+mod boundaries;
+mod charts;
 pub mod fields;
 mod make;
 pub mod measured;
 pub mod output;
 mod pictures;
+mod solids;
 pub mod subject;
 
 pub use ask::{Info, info, measure, sample, subject, write};
@@ -14,7 +17,7 @@ pub use fields::Sampled;
 pub use make::Written;
 pub use measured::Measured;
 pub use output::{FORMATS, Format, Kind, Output, Target};
-pub use subject::Subject;
+pub use subject::{Sequence, Subject};
 
 use crate::field::Coordinate;
 
@@ -49,7 +52,7 @@ impl Default for View {
 /// How a picture is made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureOptions {
-    /// Width and height in pixels; one that suits the object unless told.
+    /// Width and height in pixels, of each picture of a sheet; one that suits the object unless told.
     pub size: Option<(usize, usize)>,
     /// Samples along each side of a pixel.
     pub supersample: usize,
@@ -57,11 +60,13 @@ pub struct PictureOptions {
     pub view: String,
     /// The palette's name.
     pub palette: String,
+    /// Whether axes with numbers stand around a picture of two or three axes; graphs and contour maps always have them.
+    pub axes: bool,
 }
 
 impl Default for PictureOptions {
     fn default() -> Self {
-        Self { size: None, supersample: 2, view: "default".into(), palette: "plain".into() }
+        Self { size: None, supersample: 2, view: "default".into(), palette: "plain".into(), axes: false }
     }
 }
 
@@ -89,4 +94,6 @@ pub struct Options {
     pub picture: PictureOptions,
     /// If it moves.
     pub timing: Timing,
+    /// An axis that is cut into slices, and where.
+    pub slices: Option<Sequence>,
 }

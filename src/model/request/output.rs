@@ -11,10 +11,18 @@ pub enum Format {
     Obj,
     /// A mesh with normals, binary.
     Ply,
+    /// A mesh with normals and colours, binary, moving over T.
+    Glb,
+    /// A mesh for printing, with a picture of it.
+    ThreeMf,
     /// A picture.
     Png,
-    /// An animation over T.
+    /// Outlines in the plane.
+    Svg,
+    /// An animation over T, in at most 256 colours.
     Gif,
+    /// An animation over T, in all colours.
+    Apng,
     /// The function, sampled on a grid.
     Nrrd,
 }
@@ -26,6 +34,8 @@ pub enum Kind {
     Mesh,
     /// One picture.
     Picture,
+    /// The boundary in the plane.
+    Outlines,
     /// Pictures over T.
     Animation,
     /// Values on a grid.
@@ -37,8 +47,12 @@ pub const FORMATS: &[(Format, &str, &str, Kind)] = &[
     (Format::Stl, "stl", "a mesh of triangles, binary", Kind::Mesh),
     (Format::Obj, "obj", "a mesh with normals, text", Kind::Mesh),
     (Format::Ply, "ply", "a mesh with normals, binary", Kind::Mesh),
-    (Format::Png, "png", "a picture", Kind::Picture),
+    (Format::Glb, "glb", "a mesh for viewers, binary; over T it moves, groups show through", Kind::Mesh),
+    (Format::ThreeMf, "3mf", "a mesh for printing, in millimetres", Kind::Mesh),
+    (Format::Png, "png", "a picture, a graph or a contour map", Kind::Picture),
+    (Format::Svg, "svg", "outlines of a plane figure, or slices of a solid (--slices)", Kind::Outlines),
     (Format::Gif, "gif", "an animation over T", Kind::Animation),
+    (Format::Apng, "apng", "an animation over T, in all colours", Kind::Animation),
     (Format::Nrrd, "nrrd", "the function, sampled on a grid", Kind::Samples),
 ];
 
@@ -140,9 +154,10 @@ mod tests {
         let file = |text: &str| Output::parse(text, None).map(|output| output.format);
         assert_eq!(file("a.stl"), Ok(Format::Stl));
         assert_eq!(file("b/c.d/a.NRRD"), Ok(Format::Nrrd));
-        assert!(file("a.jpg").is_err_and(|e| e.contains(".stl .obj .ply .png .gif")));
+        assert!(file("a.jpg").is_err_and(|e| e.contains(".stl .obj .ply .glb .3mf .png .svg .gif .apng")));
         assert!(file("a").is_err_and(|e| e.contains("no extension")));
         assert!(file("-").is_err_and(|e| e.contains("--format")));
+        assert_eq!(file("a{n}.glb"), Ok(Format::Glb));
         assert!(file("a{n}.gif").is_err_and(|e| e.contains("all frames")));
     }
 

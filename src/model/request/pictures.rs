@@ -1,41 +1,48 @@
-//! Pictures of a subject: rays for solids, filled plots for plane figures. One camera serves all frames.
+//! Pictures of a subject: rays for solids, filled plots for plane figures, graphs and maps by `charts`, sheets of all of them. One
+//! camera and one range of values serve all frames and cells.
 
 use crate::diagnostic::{Category, Diagnostic};
 use crate::interrupt::Interrupt;
-use crate::picture::animation::Frames;
-use crate::picture::camera::{Camera, View};
-use crate::picture::extent::Extent;
+use crate::picture::Image;
+use crate::picture::axes::{Axis, around, number};
+use crate::picture::canvas::LARGEST;
 use crate::picture::palette::Palette;
 use crate::picture::plot::{Fill, Window, plot};
-use crate::picture::raycast::{Picture, Space, Style, framed, raycast};
+use crate::picture::raycast::Picture;
+use crate::picture::sheet::{Heading, SheetError, compose};
+use crate::surface::sampler::Counters;
 use crate::vm::{Demand, Shape};
 
+use super::charts::{Chart, no_room};
 use super::make::Workshop;
-use super::subject::Subject;
+use super::solids::Solid;
+use super::subject::{Place, Sequence, Subject};
 use super::{Options, PictureOptions};
 
-/// Pixels along the longer side of a picture of a plane figure, where no size is given.
-const PLOT_SIDE: f64 = 640.0;
-/// Size of a picture of a solid, where none is given.
-const SOLID_SIZE: [usize; 2] = [640, 480];
+/// Pixels along the longer side of a picture of a plane figure, where no size is given; in a sheet.
+const PLOT_SIDE: [f64; 2] = [640.0, 240.0];
+/// Size of a picture of a solid, where none is given; in a sheet.
+const SOLID_SIZE: [[usize; 2]; 2] = [[640, 480], [240, 180]];
+/// Size of a graph, where none is given; in a sheet.
+const GRAPH_SIZE: [[usize; 2]; 2] = [[640, 400], [400, 240]];
 
 /// Everything about a subject's pictures that is the same in all frames.
 pub struct Artist<'a> {
     subject: &'a Subject,
-    shape: Shape,
-    scene: Scene,
+    scene: Scene<'a>,
 }
 
-enum Scene {
-    Solid { space: Space, camera: Camera, style: Style },
-    Plane { window: Window, size: [usize; 2], fill: Fill },
+enum Scene<'a> {
+    Solid(Box<Solid<'a>>),
+    Plane { shape: Shape, window: Window, size: [usize; 2], fill: Fill, axes: bool },
+    Chart(Chart<'a>),
 }
 
 impl<'a> Artist<'a> {
     /// Compiles the subject and sets up the camera so that it frames the object at all the moments.
     ///
     /// # Errors
-    /// Unknown views and palettes, sizes out of bounds, subjects that are neither solids nor plane figures, too large programs.
+    /// Unknown views and palettes, sizes out of bounds, subjects without axes, types that no picture shows, too large programs.
     pub fn new(
         shop: &Workshop<'_>,
         subject: &'a Subject,
@@ -49,82 +56,110 @@ impl<'a> Artist<'a> {
                 .help(format!("choose one of {}", names.join(", ")))
         })?;
         let bounds = subject.bounds();
-        let size = size(picture, &bounds, shop)?;
-        subject.within_memory(picture_bytes(size, picture.supersample), shop.limits)?;
-        match bounds.as_slice() {
+        let size = size(picture, subject, shop)?;
+        let cells = subject.cells(0.0).len() as u64;
+        subject.within_memory(picture_bytes(size, picture.supersample).saturating_mul(cells), shop.limits)?;
+        let places: Vec<Place> = moments.iter().flat_map(|&moment| subject.cells(moment)).collect();
+        let scene = match bounds.as_slice() {
+            [_] => Scene::Chart(Chart::graph(shop, subject, &places, (palette, size))?),
+            [_, _] if !subject.is_single() => Scene::Chart(Chart::map(shop, subject, (palette, size))?),
             [x, y] => {
                 let fill = Fill::of(palette);
                 let demand = if fill.needs_values() { Demand::Value } else { Demand::Sign };
                 let shape = subject.shape(shop.graph, demand, shop.limits)?;
                 let window = Window { lo: [x[0], y[0]], hi: [x[1], y[1]] };
-                Ok(Self { subject, shape, scene: Scene::Plane { window, size, fill } })
+                Scene::Plane { shape, window, size, fill, axes: picture.axes }
             }
-            [x, y, z] => {
-                let shape = subject.shape(shop.graph, Demand::Sign, shop.limits)?;
-                let space = Space { lo: [x[0], y[0], z[0]], hi: [x[1], y[1], z[1]] };
-                let style = Style { size, supersample: picture.supersample, palette, ..Style::default() };
-                let camera = camera(subject, &shape, space, &style, (picture, moments), shop.interrupt)?;
-                Ok(Self { subject, shape, scene: Scene::Solid { space, camera, style } })
-            }
+            [_, _, _] => Scene::Solid(Box::new(Solid::new(shop, subject, (picture, palette, size), &places)?)),
             _ => {
-                let title = format!("`{}` has {} axes here; a picture shows two or three", subject.name, bounds.len());
-                Err(Diagnostic::error("dimension", title)
-                    .help("give the missing coordinate a range, as in `x2min = -1; x2max = 1;`"))
+                let title = format!("`{}` has {} axes here; a picture shows one to three", subject.name, bounds.len());
+                return Err(Diagnostic::error("dimension", title).help(
+                    "give a coordinate the type of an axis and a range, as in `x1 : X; x1min = -1; x1max = 1;`",
+                ));
             }
-        }
+        };
+        Ok(Self { subject, scene })
     }
 
-    /// The picture at a moment.
+    /// The picture at a moment: a sheet where coordinates show as its columns or rows.
     ///
     /// # Errors
-    /// If the work was stopped.
+    /// If the work was stopped, or the sheet is too large.
     pub fn picture(&self, moment: f64, interrupt: &Interrupt) -> Result<Picture, Diagnostic> {
-        let shape = self.subject.at(&self.shape, moment);
+        let subject = self.subject;
+        let time = subject.time.as_ref().map(|time| format!("{} = {}", time.coordinate, number(moment)));
+        if subject.columns.is_none() && subject.rows.is_none() {
+            let place = subject.cells(moment).swap_remove(0);
+            return self.cell(&place, &time.unwrap_or_default(), interrupt);
+        }
+        let (mut images, mut counters, mut hits) = (Vec::new(), Counters::default(), 0);
+        for place in subject.cells(moment) {
+            let cell = self.cell(&place, "", interrupt)?;
+            counters.add(cell.counters);
+            hits += cell.hits;
+            images.push(cell.image);
+        }
+        let title = time.map_or_else(|| subject.name.to_string(), |time| format!("{}, {time}", subject.name));
+        let sheet = compose(&images, &heading(&subject.columns), &heading(&subject.rows), &title);
+        let image = sheet.map_err(|error| too_large(&error))?;
+        Ok(Picture { image, counters, hits })
+    }
+
+    fn cell(&self, place: &Place, title: &str, interrupt: &Interrupt) -> Result<Picture, Diagnostic> {
         match &self.scene {
-            Scene::Solid { space, camera, style } => Ok(raycast(&shape, *space, camera, style, interrupt)?),
-            Scene::Plane { window, size, fill } => {
-                let plot = plot(&shape, *window, *size, *fill, interrupt)?;
-                Ok(Picture { image: plot.image, counters: plot.counters, hits: u64::from(plot.met) })
+            Scene::Solid(solid) => solid.picture(place, interrupt),
+            Scene::Chart(chart) => chart.picture(place, title, interrupt),
+            Scene::Plane { shape, window, size, fill, axes } => {
+                let plot = plot(&self.subject.placed(shape, place), *window, *size, *fill, interrupt)?;
+                let image = if *axes { self.with_axes(&plot.image, title)? } else { plot.image };
+                Ok(Picture { image, counters: plot.counters, hits: u64::from(plot.met) })
             }
         }
     }
+
+    fn with_axes(&self, image: &Image, title: &str) -> Result<Image, Diagnostic> {
+        let [x, y] = [0, 1].map(|k| {
+            let axis = self.subject.axes[k];
+            Axis::new(axis.coordinate.to_string(), axis.range[0], axis.range[1])
+        });
+        around(image, &x, &y, title).ok_or_else(|| no_room([image.width, image.height]))
+    }
 }
 
-fn camera(
-    subject: &Subject,
-    shape: &Shape,
-    space: Space,
-    style: &Style,
-    (picture, moments): (&PictureOptions, &[f64]),
-    interrupt: &Interrupt,
-) -> Result<Camera, Diagnostic> {
-    let view = View::from_name(&picture.view).ok_or_else(|| {
-        let names: Vec<&str> = View::NAMES.iter().map(|(name, ..)| *name).collect();
-        usage("view", format!("no view is called `{}`", picture.view))
-            .help(format!("choose one of {}, or azimuth,elevation in degrees: `30,20`", names.join(", ")))
-    })?;
-    let input = subject.time.as_ref().and_then(|t| subject.fixed.iter().position(|f| f.0 == t.coordinate));
-    let extent = match input {
-        Some(input) => Frames { shape, input, values: moments, space }.extent(interrupt)?,
-        None => Extent::of(shape, space, interrupt)?,
-    };
-    Ok(framed(&view, &extent, style))
+fn heading(sequence: &Option<Sequence>) -> Heading {
+    sequence.as_ref().map_or_else(Heading::default, |sequence| Heading {
+        name: sequence.coordinate.to_string(),
+        values: sequence.values.clone(),
+    })
 }
 
-fn size(picture: &PictureOptions, bounds: &[[f64; 2]], shop: &Workshop<'_>) -> Result<[usize; 2], Diagnostic> {
-    let size = match (picture.size, bounds) {
+fn too_large(error: &SheetError) -> Diagnostic {
+    usage("picture-size", error.to_string()).help("give each picture a smaller --size, or the coordinate a larger step")
+}
+
+/// The size of a picture, or of each picture of a sheet.
+fn size(picture: &PictureOptions, subject: &Subject, shop: &Workshop<'_>) -> Result<[usize; 2], Diagnostic> {
+    let counts = [&subject.columns, &subject.rows].map(|s| s.as_ref().map_or(1, |s| s.values.len()));
+    let in_sheet = usize::from(counts != [1, 1]);
+    let size = match (picture.size, subject.bounds().as_slice()) {
         (Some((width, height)), _) => [width, height],
         (None, [x, y]) => {
             let (width, height) = (x[1] - x[0], y[1] - y[0]);
-            let scale = PLOT_SIDE / width.max(height);
+            let scale = PLOT_SIDE[in_sheet] / width.max(height);
             [width, height].map(|side| ((side * scale).round() as usize).max(1))
         }
-        (None, _) => SOLID_SIZE,
+        (None, [_]) => GRAPH_SIZE[in_sheet],
+        (None, _) => SOLID_SIZE[in_sheet],
     };
     let most = shop.limits.picture_side;
     if size.iter().any(|&side| side == 0 || side > most) {
         let title = format!("a picture cannot be {} x {} pixels", size[0], size[1]);
         return Err(usage("picture-size", title).help(format!("each side has 1 to {most} pixels")));
+    }
+    // Known before the work is done, not after it.
+    let sheet = [0, 1].map(|k| size[k].saturating_mul(counts[k]));
+    if in_sheet == 1 && sheet.iter().any(|&side| side > LARGEST) {
+        return Err(too_large(&SheetError::TooLarge { size: sheet }));
     }
     Ok(size)
 }
@@ -135,6 +170,6 @@ fn picture_bytes(size: [usize; 2], supersample: usize) -> u64 {
     pixels * (8 + 2 * (supersample * supersample) as u64)
 }
 
-fn usage(code: &'static str, title: String) -> Diagnostic {
+pub(super) fn usage(code: &'static str, title: String) -> Diagnostic {
     Diagnostic::error(code, title).category(Category::Usage)
 }

@@ -1,8 +1,10 @@
-//! From an object of the session to a shape in a space: which coordinates are axes, what the others are fixed at, which are time.
+//! From an object of the session to a shape in a space: which coordinates are axes, what the others are fixed at, which take several
+//! values. Makes no output.
 
 use crate::diagnostic::{Category, Diagnostic};
 use crate::field::{Coordinate, Graph, NodeId};
 use crate::limits::Limits;
+use crate::picture::axes::number;
 use crate::source::Span;
 use crate::surface::grid::{Grid, GridError, MOST_CELLS};
 use crate::syntax::tree::Name;
@@ -19,13 +21,38 @@ pub struct Axis {
     pub range: [f64; 2],
 }
 
-/// The coordinate that shows as time, and its values, one a frame.
+/// A coordinate that takes several values: frames, columns or rows of a sheet, sections.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Time {
+pub struct Sequence {
     /// Its coordinate.
     pub coordinate: Coordinate,
-    /// One value a frame.
+    /// One value a frame, column, row or section.
     pub values: Vec<f64>,
+}
+
+/// Values of coordinates that are no axes.
+pub type Place = Vec<(Coordinate, f64)>;
+
+/// A value of the function whose boundary is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// The value.
+    pub value: f64,
+    /// The function less that value.
+    pub node: NodeId,
+}
+
+/// One of the things that are shown together: a section, or the boundary of a level.
+#[derive(Clone, Debug)]
+pub struct Member {
+    /// What it is: `x8 = 0.5`, or the level.
+    pub label: String,
+    /// The coordinate's value or the level; of several coordinates that of the last.
+    pub value: f64,
+    /// The function; members may share its program.
+    pub shape: Shape,
+    /// The coordinates with their values, or `level` with its.
+    pub marks: Vec<(String, f64)>,
 }
 
 /// An object ready to be shown: the function, its axes, and values for every other coordinate.
@@ -39,34 +66,175 @@ pub struct Subject {
     pub node: NodeId,
     /// One to three axes in the order X, Y, Z.
     pub axes: Vec<Axis>,
-    /// The other coordinates; time is among them, at its first frame.
-    pub fixed: Vec<(Coordinate, f64)>,
+    /// The other coordinates; those that take several values are among them, at their first.
+    pub fixed: Place,
     /// Time, unless a section fixed it or nothing moves.
-    pub time: Option<Time>,
+    pub time: Option<Sequence>,
+    /// Columns of a sheet, type V.
+    pub columns: Option<Sequence>,
+    /// Rows of a sheet, type W.
+    pub rows: Option<Sequence>,
+    /// Sections shown together, type G; also slices.
+    pub groups: Vec<Sequence>,
+    /// Sections told apart by their colour, type C.
+    pub colour: Option<Sequence>,
+    /// Levels whose boundaries are shown together, ascending. Empty: the one at 0.
+    pub levels: Vec<Level>,
 }
 
 impl Subject {
+    /// A function whose coordinates have no roles yet.
+    #[must_use]
+    pub fn of(name: Name, node: NodeId, fixed: Place) -> Self {
+        let (axes, groups, levels) = Default::default();
+        Self {
+            name,
+            span: None,
+            node,
+            axes,
+            fixed,
+            time: None,
+            columns: None,
+            rows: None,
+            groups,
+            colour: None,
+            levels,
+        }
+    }
+
+    /// The same object with one of its axes cut into slices.
+    ///
+    /// # Errors
+    /// If that coordinate is no axis.
+    pub fn sliced(mut self, slices: &Sequence) -> Result<Self, Diagnostic> {
+        let c = slices.coordinate;
+        let Some(place) = self.axes.iter().position(|axis| axis.coordinate == c) else {
+            let title = format!("{c} is no axis of `{}` that could be sliced", self.name);
+            let axes: Vec<String> = self.axes.iter().map(|axis| axis.coordinate.to_string()).collect();
+            let help = format!("its axes are {}", axes.join(", "));
+            return Err(Diagnostic::error("no-axis", title).category(Category::Usage).help(help));
+        };
+        self.axes.remove(place);
+        self.fixed.extend(slices.values.first().map(|&first| (c, first)));
+        self.groups.push(slices.clone());
+        Ok(self)
+    }
+
+    /// Whether there is one thing to show at a time: neither sections nor levels.
+    #[must_use]
+    pub fn is_single(&self) -> bool {
+        self.groups.is_empty() && self.colour.is_none() && self.levels.is_empty()
+    }
+
+    /// Everything that is shown together in one picture: each pair, triple ... of sections; one without a value if there are none.
+    #[must_use]
+    pub fn sections(&self) -> Vec<Place> {
+        let all = self.groups.iter().chain(&self.colour);
+        all.fold(vec![Vec::new()], |sections, next| {
+            let more =
+                |section: &Place| next.values.iter().map(|&v| with(section, next.coordinate, v)).collect::<Vec<_>>();
+            sections.iter().flat_map(more).collect()
+        })
+    }
+
+    /// The cells of the sheet at a moment, row by row; one cell if there is no sheet.
+    #[must_use]
+    pub fn cells(&self, moment: f64) -> Vec<Place> {
+        let time = self.time.iter().map(|time| (time.coordinate, moment)).collect();
+        [&self.rows, &self.columns].into_iter().flatten().fold(vec![time], |cells: Vec<Place>, next| {
+            let more = |cell: &Place| next.values.iter().map(|&v| with(cell, next.coordinate, v)).collect::<Vec<_>>();
+            cells.iter().flat_map(more).collect()
+        })
+    }
+
+    /// Refuses coordinates with types, and levels, that an output cannot show: `shows` lists the types that it can.
+    ///
+    /// # Errors
+    /// One message, with what to do.
+    pub fn shown_by(&self, output: &str, shows: &[&str]) -> Result<(), Diagnostic> {
+        let typed = [("V", &self.columns), ("W", &self.rows), ("C", &self.colour)];
+        let typed = typed.into_iter().filter_map(|(name, sequence)| Some((name, sequence.as_ref()?)));
+        let mut all = typed.chain(self.groups.iter().map(|group| ("G", group)));
+        if let Some((name, Sequence { coordinate: c, values })) = all.find(|(name, _)| !shows.contains(name)) {
+            let title = format!("{c} of `{}` has the type {name}, which {output} cannot show", self.name);
+            let first = values.first().unwrap_or(&0.0);
+            let help = format!("fix it at one value: --at {c}={first}, or `{c} : CONSTANT = {first};`");
+            return Err(Diagnostic::error("type-not-shown", title).help(help));
+        }
+        if self.levels.is_empty() || shows.contains(&"levels") {
+            return Ok(());
+        }
+        let (name, count) = (&self.name, self.levels.len());
+        let title = format!("`{name}` has {count} levels, which {output} cannot show together");
+        let help = format!("choose one: `{name} : CONSTANT = {};`", self.levels[0].value);
+        Err(Diagnostic::error("type-not-shown", title).help(help))
+    }
+
     /// The object as a shape at its first frame.
     ///
     /// # Errors
     /// If its program would be too large.
     pub fn shape(&self, graph: &Graph, demand: Demand, limits: &Limits) -> Result<Shape, Diagnostic> {
+        self.shape_of(self.node, graph, demand, limits)
+    }
+
+    /// Everything that is shown together in one picture: levels, or sections; the object alone if there are neither.
+    ///
+    /// # Errors
+    /// If there are both, or a program would be too large.
+    pub fn members(&self, graph: &Graph, demand: Demand, limits: &Limits) -> Result<Vec<Member>, Diagnostic> {
+        let sections = self.sections();
+        if self.levels.is_empty() {
+            let shape = self.shape(graph, demand, limits)?;
+            let label = |place: &Place| {
+                let each: Vec<String> = place.iter().map(|(c, v)| format!("{c} = {}", number(*v))).collect();
+                each.join(", ")
+            };
+            let member = |place: &Place| Member {
+                label: label(place),
+                value: place.last().map_or(0.0, |last| last.1),
+                shape: self.placed(&shape, place),
+                marks: place.iter().map(|(c, v)| (c.to_string(), *v)).collect(),
+            };
+            return Ok(sections.iter().map(member).collect());
+        }
+        if sections.len() > 1 {
+            let title = format!("`{}` has several levels and several sections; one picture shows either", self.name);
+            let help = format!("choose one level: `{} : CONSTANT = {};`", self.name, self.levels[0].value);
+            return Err(Diagnostic::error("type-not-shown", title).help(help));
+        }
+        let member = |level: &Level| {
+            let shape = self.shape_of(level.node, graph, demand, limits)?;
+            let marks = vec![("level".into(), level.value)];
+            Ok(Member { label: number(level.value), value: level.value, shape, marks })
+        };
+        self.levels.iter().map(member).collect()
+    }
+
+    fn shape_of(&self, node: NodeId, graph: &Graph, demand: Demand, limits: &Limits) -> Result<Shape, Diagnostic> {
         let inputs: Vec<Coordinate> =
             self.axes.iter().map(|a| a.coordinate).chain(self.fixed.iter().map(|f| f.0)).collect();
-        let program = Program::compile(graph, self.node, &inputs, demand, limits).map_err(|e| self.not_compiled(e))?;
+        let program = Program::compile(graph, node, &inputs, demand, limits).map_err(|e| self.not_compiled(e))?;
         Ok(Shape::new(program, self.axes.len(), self.fixed.iter().map(|f| f.1).collect()))
     }
 
-    /// The same shape, sharing its program, at another moment.
+    /// The same shape, sharing its program, at another place.
     #[must_use]
-    pub fn at(&self, shape: &Shape, moment: f64) -> Shape {
+    pub fn placed(&self, shape: &Shape, place: &[(Coordinate, f64)]) -> Shape {
         let mut shape = shape.clone();
-        if let Some(time) = &self.time
-            && let Some(place) = self.fixed.iter().position(|f| f.0 == time.coordinate)
-        {
-            shape.fixed[place] = moment;
+        for (coordinate, value) in place {
+            if let Some(k) = self.fixed.iter().position(|f| f.0 == *coordinate) {
+                shape.fixed[k] = *value;
+            }
         }
         shape
+    }
+
+    /// The same shape at another moment.
+    #[must_use]
+    pub fn at(&self, shape: &Shape, moment: f64) -> Shape {
+        let place: Place = self.time.iter().map(|time| (time.coordinate, moment)).collect();
+        self.placed(shape, &place)
     }
 
     /// The moments of a series: one a frame, or the one moment of what does not move.
@@ -141,7 +309,8 @@ impl Subject {
             GridError::TooFine(axis) => {
                 let Axis { coordinate: c, range: [lo, hi] } = self.axes[axis];
                 let title = format!("the cells along {c} ({lo} to {hi}) are too small for doubles of that size");
-                Diagnostic::error("too-fine", title).help(format!("lower --resolution, or move the space towards {c} = 0"))
+                Diagnostic::error("too-fine", title)
+                    .help(format!("lower --resolution, or move the space towards {c} = 0"))
             }
             GridError::Dimension(n) => {
                 let title =
@@ -166,6 +335,12 @@ impl Subject {
             None => diagnostic,
         }
     }
+}
+
+fn with(place: &Place, coordinate: Coordinate, value: f64) -> Place {
+    let mut place = place.clone();
+    place.push((coordinate, value));
+    place
 }
 
 /// Bytes in the unit that people read.
