@@ -401,7 +401,7 @@ impl Tally {
             let width = unit.hi - unit.lo;
             // An infinite value beside a finite one is right only where the interval reaches so far.
             let far = if width.is_infinite() { 0.0 } else { (value - plain).abs() / width };
-            if !(far <= UNITS) {
+            if far > UNITS || far.is_nan() {
                 self.faults.push(format!("{far} units: {}", told()));
             }
             self.sharp += usize::from(width < 1e-6 * value.abs());

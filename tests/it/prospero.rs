@@ -162,20 +162,18 @@ fn plainly(text: &str, side: usize, rows: std::ops::Range<usize>) -> Vec<bool> {
 fn converted(shared: &Path) -> Option<String> {
     let list = shared.join("data/models/prospero.vm");
     let run = std::process::Command::new("python3").arg(shared.join("tools/vm2geo.py")).arg(list).output();
-    match run {
-        Ok(output) if output.status.success() => String::from_utf8(output.stdout).ok(),
-        _ => {
-            eprintln!("SKIPPED: python3 or {}/tools/vm2geo.py is missing", shared.display());
-            None
-        }
-    }
+    let output = run.ok().filter(|output| output.status.success())?;
+    String::from_utf8(output.stdout).ok()
 }
 
 /// 256 pixels a side, or as many as `YONT_SIDE` says; 1024 takes half a minute in release.
 #[test]
 fn the_picture_of_the_script_is_right_at_every_pixel() {
     let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared");
-    let Some(script) = converted(&shared) else { return };
+    let Some(script) = converted(&shared) else {
+        eprintln!("SKIPPED: python3 or {}/tools/vm2geo.py is missing", shared.display());
+        return;
+    };
     let side: usize = std::env::var("YONT_SIDE").ok().and_then(|text| text.parse().ok()).unwrap_or(256);
     let mut session = crate::session::session();
     let begun = std::time::Instant::now();

@@ -165,7 +165,7 @@ impl Oracle {
                 CompareOp::Greater => left > right,
                 CompareOp::GreaterEqual => left >= right,
                 CompareOp::Equal => left == right,
-                CompareOp::NotEqual => left < right || left > right,
+                CompareOp::NotEqual => left.partial_cmp(&right).is_some_and(std::cmp::Ordering::is_ne),
             };
             left = right;
         }
@@ -215,16 +215,21 @@ enum Rule {
     Smooth(f64),
 }
 
-/// The R-union, with the sign that the signs of the operands decide; an undefined operand leaves the other one.
+/// The R-union, with the sign that the signs of the operands decide; an undefined operand leaves the other one, an infinite one
+/// counts as in the maximum, and a parameter that is out of range makes it undefined.
 fn union(a: f64, b: f64, rule: Rule) -> f64 {
+    let (alpha, m) = match rule {
+        Rule::Alpha(alpha) => (alpha, 0.0),
+        Rule::Smooth(m) => (0.0, m),
+    };
+    if !(alpha > -1.0 && alpha <= 1.0 && m >= 0.0) {
+        return f64::NAN;
+    }
     if a.is_nan() || b.is_nan() {
         return maximum(a, b);
     }
-    let value = match rule {
-        Rule::Alpha(1.0) => return a.max(b),
-        Rule::Alpha(alpha) => r_union(a, b, alpha),
-        Rule::Smooth(m) => r_union(a, b, 0.0) * (a * a + b * b).powf(m / 2.0),
-    };
+    let plain = if alpha == 1.0 || a.is_infinite() || b.is_infinite() { a.max(b) } else { r_union(a, b, alpha) };
+    let value = if m == 0.0 { plain } else { plain * a.hypot(b).powf(m) };
     if (a >= 0.0 || b >= 0.0) == (value >= 0.0) && !value.is_nan() { value } else { a.max(b) }
 }
 
