@@ -1,10 +1,16 @@
 //! Golden texts of messages: of each kind of syntax error, in each rendering; and near names.
 
+use std::path::Path;
+use std::sync::Arc;
+
 use expect_test::{expect, expect_file};
 use yont::diagnostic::near::{Candidate, suggest};
 use yont::diagnostic::render::{Colour, human, json, short};
 use yont::diagnostic::{Category, Diagnostic};
+use yont::host::{Disk, Memory};
+use yont::interrupt::Interrupt;
 use yont::limits::Limits;
+use yont::model::Session;
 use yont::source::{SourceMap, Span};
 use yont::syntax::{Mode, parse};
 
@@ -54,6 +60,44 @@ fn the_figure_as_printed() {
         as-printed.txt:34:33: error[unclosed-bracket]: this `(` is never closed
           help: add the `)` where it belongs, at the latest before the end of the statement"#]]
     .assert_eq(&lines.join("\n"));
+}
+
+/// Each program of `examples/errors` with the messages that it gets; `UPDATE_EXPECT=1` writes them anew.
+#[test]
+fn each_example_of_an_error_is_told_with_its_place() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/errors");
+    let mut names: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    let mut found = String::new();
+    for name in names {
+        let path = format!("examples/errors/{name}");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let mut session = Session::new(Arc::new(Disk), Limits::default(), Interrupt::default());
+        let outcome = session.input(&path, &text, Mode::Script);
+        assert!(!outcome.diagnostics.is_empty(), "{name}: nothing was said");
+        found += &format!("=== {name}\n{text}--- messages\n");
+        for diagnostic in &outcome.diagnostics {
+            assert!(diagnostic.labels.iter().any(|l| l.primary), "{name}: a message must have a place");
+            found += &human(diagnostic, session.sources(), Colour::Plain);
+        }
+    }
+    expect_file!["diagnostics/errors.txt"].assert_eq(&found);
+}
+
+/// The figure as it was printed, as a whole: one run names every one of its errors.
+#[test]
+fn the_figure_as_printed_is_explained_in_one_run() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/models/as-printed.txt");
+    let Ok(text) = std::fs::read_to_string(path) else {
+        eprintln!("SKIPPED: {path} is missing");
+        return;
+    };
+    let mut session = Session::new(Arc::new(Memory::default()), Limits::default(), Interrupt::default());
+    let outcome = session.input("as-printed.txt", &text, Mode::Script);
+    let told: Vec<_> =
+        outcome.diagnostics.iter().map(|d| short(d, session.sources()) + "\n  help: " + &d.help.join("; ")).collect();
+    expect_file!["diagnostics/as-printed.txt"].assert_eq(&(told.join("\n") + "\n"));
 }
 
 fn sample() -> (SourceMap, Diagnostic) {

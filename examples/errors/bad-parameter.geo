@@ -1,0 +1,2 @@
+{ A number is no parameter. }
+f(1) = 3;

@@ -1,0 +1,2 @@
+{ A coordinate is no name. }
+x1 = 3;

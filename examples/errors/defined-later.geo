@@ -1,0 +1,3 @@
+{ PRINT stands above the definition. }
+PRINT r;
+r = 2;

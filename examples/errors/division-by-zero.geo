@@ -1,0 +1,2 @@
+{ Known when the program is read. }
+a = 1/0;

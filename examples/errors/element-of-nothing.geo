@@ -1,0 +1,2 @@
+{ There is no array yet. }
+a[2] = 5;

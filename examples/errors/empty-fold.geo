@@ -1,0 +1,2 @@
+{ The greatest of none. }
+a = MAXIMUM(i = 1 TO 0, i);

@@ -1,0 +1,3 @@
+{ One `=` defines, the others compare. }
+b = 3;
+a = b = 3;

@@ -1,0 +1,2 @@
+{ The sum has no beginning. }
+s = s + 1;

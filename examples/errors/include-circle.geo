@@ -1,0 +1,2 @@
+{ A file that includes itself. }
+INCLUDE "include-circle.geo";

@@ -1,0 +1,2 @@
+{ By element needs equal lengths. }
+a = [1, 2] + [1, 2, 3];

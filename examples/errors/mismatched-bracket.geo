@@ -1,0 +1,2 @@
+{ A `]` where a `)` belongs. }
+a = 2 * (1 + 3];

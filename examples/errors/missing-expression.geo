@@ -1,0 +1,2 @@
+{ Nothing stands behind the `+`. }
+a = 3 + ;

@@ -1,0 +1,2 @@
+{ A product needs its `*`. }
+a = 2 x1;

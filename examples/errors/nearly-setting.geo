@@ -1,0 +1,2 @@
+{ The setting is written x1min. }
+x1_min = -3;

@@ -1,0 +1,2 @@
+{ An array is no object. }
+gob_a = [1, 2] & x1;

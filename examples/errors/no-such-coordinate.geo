@@ -1,0 +1,2 @@
+{ There are sixteen coordinates. }
+gob_a = x17;

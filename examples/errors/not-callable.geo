@@ -1,0 +1,3 @@
+{ A product needs its `*`. }
+a = 3;
+b = a(x1 + 1);

@@ -1,0 +1,2 @@
+{ Which of the two? }
+f(a, a) = 3;

@@ -1,0 +1,2 @@
+{ IF is no name. }
+IF = 3;

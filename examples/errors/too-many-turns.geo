@@ -1,0 +1,3 @@
+{ i grows and never gets negative. }
+i = 0;
+WHILE (i >= 0) DO i = i + 1;

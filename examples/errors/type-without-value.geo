@@ -1,0 +1,2 @@
+{ A group of what? }
+x8 : G;

@@ -1,0 +1,3 @@
+a = 3;
+{ This comment has no end.
+b = 4;

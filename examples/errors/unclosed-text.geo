@@ -1,0 +1,2 @@
+{ The text has no second quote. }
+PRINT "radius;

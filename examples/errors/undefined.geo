@@ -1,0 +1,2 @@
+{ Known when the program is read. }
+a = SQRT(-1);

@@ -1,0 +1,2 @@
+{ There is no type Q. }
+x4 : Q;
