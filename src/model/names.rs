@@ -10,7 +10,7 @@ use crate::syntax::tree::{
 
 /// The name that holds the parameter of the R-functions.
 pub const R_ALPHA: &str = "r_alpha";
-/// The name that holds the exponent of the factor of [P95] eq. (5).
+/// The name that holds the exponent of the factor of \[P95\] eq. (5).
 pub const R_M: &str = "r_m";
 
 /// Whether the name sets the system of R-functions.

@@ -213,7 +213,7 @@ impl Function {
     }
 }
 
-/// The system of R-functions in force, evaluated: [P95] eq. (2) with its alpha, or eq. (5) with its m.
+/// The system of R-functions in force, evaluated: \[P95\] eq. (2) with its alpha, or eq. (5) with its m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum System {
     /// `r_alpha`

@@ -128,11 +128,11 @@ pub enum Binary {
 pub enum Ternary {
     /// `IF a THEN b ELSE c`: b where a is true (not 0, defined), else c
     Select,
-    /// R-union of a and b with `r_alpha` = c: [P95] eq. (2), computed as `mathematics.md` 1 says; an undefined operand leaves the other
+    /// R-union of a and b with `r_alpha` = c: \[P95\] eq. (2), computed as `mathematics.md` 1 says; an undefined operand leaves the other
     Union,
     /// R-intersection of a and b with `r_alpha` = c: -((-a) | (-b)); undefined if one is
     Intersection,
-    /// R-union of a and b with alpha = 0 and the factor (a^2+b^2)^(m/2), m = c: [P95] eq. (5)
+    /// R-union of a and b with alpha = 0 and the factor (a^2+b^2)^(m/2), m = c: \[P95\] eq. (5)
     UnionSmooth,
     /// R-intersection with that factor
     IntersectionSmooth,

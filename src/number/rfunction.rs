@@ -1,11 +1,11 @@
-//! The R-functions of [P95], equations (2) and (5), in a form that neither cancels nor overflows (`mathematics.md` 1).
+//! The R-functions of \[P95\], equations (2) and (5), in a form that neither cancels nor overflows (`mathematics.md` 1).
 //!
 //! The sign is always that of max (union) and min (intersection), also where squares would leave the range. Never turns an
 //! infinite operand into an undefined value.
 
 use super::float::{Float, hypot, max, pow};
 
-/// `a | b` with `r_alpha` = `alpha`: [P95] eq. (2). An undefined operand leaves the other; `alpha` outside (-1, 1] is
+/// `a | b` with `r_alpha` = `alpha`: \[P95\] eq. (2). An undefined operand leaves the other; `alpha` outside (-1, 1] is
 /// undefined; infinities as in max. Within 4.6e-16 for alpha from -0.999 to 0.999999.
 #[inline(always)]
 pub fn union<T: Float>(a: T, b: T, alpha: T) -> T {
@@ -48,7 +48,7 @@ pub fn intersection<T: Float>(a: T, b: T, alpha: T) -> T {
     (a + b).when(a.undefined() | b.undefined(), value)
 }
 
-/// `a | b` with alpha = 0 and the factor (a^2 + b^2)^(m/2): [P95] eq. (5). An undefined operand leaves the other; a negative
+/// `a | b` with alpha = 0 and the factor (a^2 + b^2)^(m/2): \[P95\] eq. (5). An undefined operand leaves the other; a negative
 /// or undefined `m` is undefined.
 #[inline(always)]
 pub fn union_smooth<T: Float>(a: T, b: T, m: T) -> T {

@@ -1,4 +1,4 @@
-//! Contour maps: lines of several levels with their values written into them, over a map in colour, within axes, as in [P95] Fig. 3.
+//! Contour maps: lines of several levels with their values written into them, over a map in colour, within axes, as in \[P95\] Fig. 3.
 //! Samples nothing: see [`Field`].
 
 use super::axes::{Axis, GRID, INK, Look, PAPER, Plot, Surround, number, ticks};

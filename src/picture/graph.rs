@@ -310,7 +310,7 @@ impl Graph {
     }
 }
 
-/// Draws graphs above each other over one axis, as in [P95] Fig. 1. None if there is no graph or no memory for the picture.
+/// Draws graphs above each other over one axis, as in \[P95\] Fig. 1. None if there is no graph or no memory for the picture.
 #[must_use]
 pub fn stack(graphs: &[Graph], x: &Axis, width: usize, height: usize) -> Option<Image> {
     let last = graphs.len().checked_sub(1)?;

@@ -1,4 +1,4 @@
-//! Sheets: many pictures in rows and columns under the values that they were made for, the geometric spreadsheet of [P95]. Makes none
+//! Sheets: many pictures in rows and columns under the values that they were made for, the geometric spreadsheet of \[P95\]. Makes none
 //! of the pictures.
 
 use super::axes::{INK, Look, PAPER, number};

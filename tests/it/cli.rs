@@ -136,7 +136,10 @@ fn the_extension_decides_what_is_made() {
         (&["growing.geo", "-o", "a.gif", "-o", "b.apng"], &[("a.gif", b"GIF89a"), ("b.apng", b"\x89PNG")]),
         (&["growing.geo", "-o", "a.glb", "-o", "b.3mf"], &[("a.glb", b"glTF"), ("b.3mf", b"PK")]),
         (&["disc.geo", "-o", "a.svg"], &[("a.svg", b"<?xml")]),
-        (&["ball.geo", "-o", "a.svg", "-o", "b.png", "--slices", "x3=-1:1:5"], &[("a.svg", b"<?xml"), ("b.png", b"\x89PNG")]),
+        (
+            &["ball.geo", "-o", "a.svg", "-o", "b.png", "--slices", "x3=-1:1:5"],
+            &[("a.svg", b"<?xml"), ("b.png", b"\x89PNG")],
+        ),
         (&["growing.geo", "-o", "f-{n}.png", "--frames", "2"], &[("f-000.png", b"\x89PNG"), ("f-001.png", b"\x89PNG")]),
         (
             &["growing.geo", "-o", "f{n}.STL"],

@@ -275,7 +275,9 @@ fn named_coordinates(arguments: &[Expr]) -> Option<Vec<(u8, Span, &Expr)>> {
 /// An error inside a function shows the call that led there; long ways are cut.
 fn called_from(fault: Fault, span: Span) -> Fault {
     match fault {
-        Fault::Told(told) if told.labels.len() < 3 && told.labels.iter().all(|l| l.span != span) => Fault::Told(Box::new(told.see(span, "called here"))),
+        Fault::Told(told) if told.labels.len() < 3 && told.labels.iter().all(|l| l.span != span) => {
+            Fault::Told(Box::new(told.see(span, "called here")))
+        }
         other => other,
     }
 }
