@@ -54,7 +54,7 @@ pub fn write(mesh: &Mesh, colours: Option<&[[u8; 3]]>, name: &str, out: &mut imp
 /// Writes several meshes that are seen together, each under its own name: a group of sections, or isosurfaces that show through.
 ///
 /// # Errors
-/// As [`write`]; also when there is no member.
+/// As [`write()`]; also when there is no member.
 pub fn write_group(members: &[(&str, Part)], name: &str, out: &mut impl Write) -> io::Result<()> {
     if members.is_empty() {
         return Err(refuse("a group needs a member"));
@@ -67,7 +67,7 @@ pub fn write_group(members: &[(&str, Part)], name: &str, out: &mut impl Write) -
 /// Writes frames that follow each other every `delay` seconds, each shown for that long. A viewer that does not play shows the first.
 ///
 /// # Errors
-/// As [`write`]; also when there is no frame or `delay` is not above 0.
+/// As [`write()`]; also when there is no frame or `delay` is not above 0.
 pub fn write_animation(frames: &[Part], delay: f64, name: &str, out: &mut impl Write) -> io::Result<()> {
     if frames.is_empty() || !(delay > 0. && delay.is_finite()) {
         return Err(refuse("an animation needs a frame and a time above 0 for each"));

@@ -1,4 +1,4 @@
-//! Triangle meshes: vertices by number, with normals. Never promises more than its maker: see [`super::check`].
+//! Triangle meshes: vertices by number, with normals. Never promises more than its maker: see [`super::check()`].
 
 /// A triangle mesh. Triangles turn counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -2,7 +2,7 @@
 //!
 //! The way of a mesh: [`grid`] says where the sample points lie, [`boxes`] finds the undecided leaves among them, [`brick`] evaluates a leaf
 //! and finds a vertex on each crossed edge ([`roots`]), [`marching`] joins the vertices to triangles ([`table`]), [`cap`] closes the object
-//! at the faces of the modelling space. [`check`] proves the mesh closed, [`measure`] integrates over it, [`contour`] does the same for
+//! at the faces of the modelling space. [`check()`] proves the mesh closed, [`measure()`] integrates over it, [`contour`] does the same for
 //! 2-D shapes.
 
 pub mod boxes;
