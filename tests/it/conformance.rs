@@ -206,7 +206,7 @@ fn values(program: &Program, points: &[Vec<f64>; 3]) -> Vec<f64> {
 fn compiled_values_equal_the_walk_to_the_bit() {
     let mut random = Random(1);
     let mut evaluator = Points::<f64>::new();
-    for case in 0..20_000 {
+    for case in 0..100_000 {
         let mut graph = Graph::new();
         let size = 1 + random.below(30);
         let root = expression(&mut random, &mut graph, size);
