@@ -121,7 +121,9 @@ impl Oracle {
                 })
             }
             ("HYPOT", [first, second, rest @ ..]) => {
-                let both = |a: Value, b: &Value| pair(a, b.clone(), &|a, b| Ok(a.hypot(b)));
+                // Undefined is stronger than infinite, unlike in IEEE arithmetic.
+                let length = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { a.hypot(b) };
+                let both = |a: Value, b: &Value| pair(a, b.clone(), &|a, b| Ok(length(a, b)));
                 rest.iter().try_fold(both(first.clone(), second)?, both)
             }
             ("LEN", [Value::Array(list)]) => Ok(Value::Number(list.len() as f64)),
