@@ -55,6 +55,11 @@ impl Session {
         self.names().into_iter().filter(|n| n.starts_with("gob_")).collect()
     }
 
+    /// The message about a name that nothing defines.
+    pub(super) fn unknown(&self, name: &str) -> Diagnostic {
+        errors::unknown_name(&self.state, name, &[], false, &Default::default())
+    }
+
     fn last_object(&self) -> Option<Name> {
         self.state.program().iter().rev().find_map(|entry| {
             let Entry::Definition(definition) = entry else { return None };
@@ -70,11 +75,11 @@ impl Session {
                 Diagnostic::error("not-an-object", format!("`{name}` is {}, not an object", other.kind()))
                     .help("an object is a function of the coordinates: `gob_ball = 1 - x1**2 - x2**2 - x3**2;`"),
             ]),
-            Some(Err(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(*told).clone() }]),
+            Some(Err(told)) => Err(vec![severe(&told)]),
             None if self.is_defined(name) => {
                 Err(vec![Diagnostic::error("never-assigned", format!("`{name}` has no value"))])
             }
-            None => Err(vec![errors::unknown_name(&self.state, name, &[], false, &Default::default())]),
+            None => Err(vec![self.unknown(name)]),
         }
     }
 
@@ -88,7 +93,7 @@ impl Session {
                 let place = self.state.get(name).map(|d| d.place());
                 Err(vec![place.into_iter().fold(told, |told, span| told.at(span, ""))])
             }
-            Some(Err(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(*told).clone() }]),
+            Some(Err(told)) => Err(vec![severe(&told)]),
         }
     }
 
@@ -132,7 +137,7 @@ impl Session {
         let Some(declared) = self.state.declared(subject) else { return Ok(Vec::new()) };
         match self.state.kept(declared.definition.id) {
             Some(Kept::One(value)) => Ok(numbers(value)),
-            Some(Kept::Failed(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(**told).clone() }]),
+            Some(Kept::Failed(told)) => Err(vec![severe(told)]),
             _ => Ok(Vec::new()),
         }
     }
@@ -147,6 +152,11 @@ impl Session {
             _ => (vec![0.0], None),
         })
     }
+}
+
+/// A message that was a note when it was found, as the error that it is for who asks.
+pub(super) fn severe(told: &Diagnostic) -> Diagnostic {
+    Diagnostic { severity: Severity::Error, ..told.clone() }
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
