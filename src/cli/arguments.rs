@@ -90,6 +90,9 @@ pub struct Common {
     /// The form of errors, warnings and notes
     #[arg(long, value_name = "FORM", global = true, default_value = "human")]
     pub diagnostics: Rendering,
+    /// Start without the settings of the file that `yont info --paths` names
+    #[arg(long, global = true)]
+    pub no_config: bool,
     /// Warnings count as errors
     #[arg(short = 'W', long = "warnings-as-errors", global = true)]
     pub strict: bool,
@@ -126,7 +129,7 @@ pub struct Program {
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// The program itself, repeatable; runs after FILE
-    #[arg(short = 'e', long = "evaluate", value_name = "CODE")]
+    #[arg(short = 'e', long = "evaluate", value_name = "CODE", allow_hyphen_values = true)]
     pub code: Vec<String>,
     /// Define NAME, whatever the program says, repeatable
     #[arg(short = 'D', long = "define", value_name = "NAME=EXPR", value_parser = assignment)]
@@ -340,6 +343,9 @@ pub struct Info {
     /// Only this object
     #[arg(long, value_name = "NAME")]
     pub object: Option<String>,
+    /// Instead: where settings, history and journals lie
+    #[arg(long, conflicts_with_all = ["file", "code", "define", "object"])]
+    pub paths: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

@@ -185,6 +185,10 @@ impl Repl {
                 self.comments = documented.trim_end().to_owned() + "\n";
                 return Flow::Go;
             }
+            None if !self.session.is_defined(first_word(trimmed)) && commands::without_colon(trimmed).is_some() => {
+                let meant = commands::without_colon(trimmed).unwrap_or_default();
+                self.refuse(&format!("commands begin with a colon: `{meant}`"))
+            }
             None => {
                 self.inputs += 1;
                 let name = format!("<input {}>", self.inputs);
@@ -294,6 +298,10 @@ impl Repl {
             Ok(failed) | Err(failed) => Flow::Failed(failed),
         }
     }
+}
+
+fn first_word(text: &str) -> &str {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default()
 }
 
 /// Whether a text holds comments and nothing else.
