@@ -25,6 +25,7 @@ mod plots;
 mod propagation;
 mod prospero;
 mod repl;
+mod scenes;
 mod session;
 mod solids;
 mod tidy;

@@ -8,6 +8,7 @@ pub mod fields;
 mod make;
 pub mod measured;
 pub mod output;
+pub mod paint;
 mod pictures;
 mod solids;
 pub mod subject;
@@ -17,6 +18,7 @@ pub use fields::Sampled;
 pub use make::Written;
 pub use measured::Measured;
 pub use output::{FORMATS, Format, Kind, Output, Target};
+pub use paint::{colours_at, colours_of};
 pub use subject::{Sequence, Subject};
 
 use crate::field::Coordinate;
