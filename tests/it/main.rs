@@ -10,6 +10,7 @@ mod examples;
 mod export;
 mod field;
 mod formats;
+mod formula;
 mod hostile;
 mod interrupts;
 mod language;
