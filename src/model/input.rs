@@ -323,7 +323,7 @@ impl<'s> Input<'s> {
             }
             StatementKind::Type { subject, kind } => {
                 let declared = Declared { kind: kind.clone(), definition: definition.clone() };
-                state.declare(subject.name.clone(), declared);
+                state.declare(&subject.name, declared);
                 state.push(Entry::Definition(definition.clone()));
                 state.add_stale(&definition);
             }

@@ -140,9 +140,7 @@ pub fn save(state: &State, sources: &SourceMap, to: &Move<'_>) -> String {
             continue;
         }
         let type_stands = match &definition.statement.kind {
-            StatementKind::Type { subject, .. } => {
-                state.declared(&subject.name).is_some_and(|d| Arc::ptr_eq(&d.definition, definition))
-            }
+            StatementKind::Type { subject, kind } => state.declares(&subject.name, kind, definition),
             _ => live.contains(&definition.id),
         };
         if !type_stands {

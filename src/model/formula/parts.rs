@@ -141,6 +141,7 @@ impl<'a> Writer<'a> {
                 self.call(&format!("INTERPOLATE({words}, "), arguments)
             }
             Node::Map(body, mapping) => self.map(*body, mapping),
+            Node::Region(..) => return Err("a part of it searches or runs a loop at each point".into()),
         })
     }
 

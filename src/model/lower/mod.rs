@@ -8,8 +8,10 @@ mod arrays;
 mod call;
 mod data;
 mod expr;
+mod extremum;
 mod fold;
 mod operators;
+mod repeat;
 mod statement;
 
 use std::sync::Arc;
@@ -17,7 +19,7 @@ use std::sync::Arc;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Category, Diagnostic};
-use crate::field::{Graph, NodeId};
+use crate::field::{Coordinate, Graph, NodeId};
 use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
@@ -132,6 +134,8 @@ pub struct Lower<'a> {
     pub turns: usize,
     depth: usize,
     calls: usize,
+    /// The last coordinate that stands for something that no text can name, where the evaluation stands.
+    variables: u8,
 }
 
 impl<'a> Lower<'a> {
@@ -153,6 +157,7 @@ impl<'a> Lower<'a> {
             turns: 0,
             depth: 0,
             calls: 0,
+            variables: Coordinate::NAMED as u8,
         }
     }
 

@@ -237,6 +237,7 @@ pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Sub
         .map(|(a, (lo, hi))| Axis { coordinate: a.coordinate, range: [lo, hi] })
         .collect();
     subject.span = session.place(&object.name);
+    subject.colouring = object.colour;
     Ok(subject)
 }
 

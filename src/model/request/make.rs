@@ -155,6 +155,7 @@ impl Making<'_> {
             let size: Vec<String> = field.size.iter().map(ToString::to_string).collect();
             self.line(n, &format!("{} samples", size.join(" x ")), begun);
             let written = export::nrrd::Field {
+                name: &self.subject.name,
                 size: &field.size,
                 origin: &field.origin,
                 spacing: &field.spacing,

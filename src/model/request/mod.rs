@@ -8,6 +8,7 @@ pub mod fields;
 mod make;
 pub mod measured;
 pub mod output;
+pub mod paint;
 mod pictures;
 mod preview;
 mod solids;
@@ -20,6 +21,7 @@ pub use make::Written;
 pub use measured::Measured;
 pub use preview::{headline, preview};
 pub use output::{FORMATS, Format, Kind, Output, Target};
+pub use paint::{colours_at, colours_of};
 pub use subject::{Sequence, Subject};
 
 use crate::field::Coordinate;
