@@ -307,6 +307,19 @@ pub fn option_values(name: &str) -> Vec<String> {
     values.iter().map(|value| value.get_name().to_owned()).collect()
 }
 
+/// What is wrong with an option, in one line: what was found, what would do, what was probably meant.
+#[must_use]
+pub fn words_of(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let mut lines = text.lines().map(str::trim);
+    let first = lines.next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    let more = lines.filter_map(|line| {
+        let values = line.strip_prefix('[').and_then(|line| line.strip_suffix(']'));
+        values.or_else(|| line.strip_prefix("tip: ").filter(|tip| tip.contains("similar")))
+    });
+    [first].into_iter().chain(more.map(str::to_owned)).collect::<Vec<_>>().join("; ")
+}
+
 impl Making {
     /// These with the options in `words` laid over them: `--resolution 64 --view top`. Of two that exclude each other, the
     /// one said last stays.
@@ -329,7 +342,7 @@ impl Making {
             options.making.look.view = None;
         }
         let read = options.try_update_from(words.split_whitespace());
-        read.map_err(|error| error.to_string().trim_start_matches("error: ").lines().next().unwrap_or("").to_owned())?;
+        read.map_err(|error| words_of(&error))?;
         Ok(options.making)
     }
 }

@@ -11,14 +11,24 @@ use crate::host::{Disk, Host, Reason, settings_folder, text};
 use crate::limits::Limits;
 use crate::source::{SourceMap, Span};
 
-use super::arguments::Cli;
+use super::arguments::{Cli, words_of};
 use super::console::Console;
 use super::status::Status;
 use super::text::near;
 
 /// Options that belong to one program or one run, and would make no sense for all of them.
 const OF_ONE_RUN: [&str; 12] = [
-    "evaluate", "define", "output", "format", "interactive", "exit-status", "object", "at", "bounds", "slices", "no-config",
+    "evaluate",
+    "define",
+    "output",
+    "format",
+    "interactive",
+    "exit-status",
+    "object",
+    "at",
+    "bounds",
+    "slices",
+    "no-config",
     "help",
 ];
 
@@ -55,10 +65,7 @@ pub fn applied(cli: Cli, arguments: Vec<OsString>) -> Result<Cli, Status> {
     if !told.is_empty() {
         return Err(console.report(&sources, &told));
     }
-    with(&arguments, &settings).map_err(|error| {
-        let title = error.to_string().trim_start_matches("error: ").lines().next().unwrap_or_default().to_owned();
-        console.report(&sources, &[refusal(title)])
-    })
+    with(&arguments, &settings).map_err(|error| console.report(&sources, &[refusal(words_of(&error))]))
 }
 
 /// The lines that are neither empty nor comments.
@@ -95,7 +102,9 @@ fn known(command: &Command) -> impl Iterator<Item = &Arg> {
 }
 
 fn refusal(title: String) -> Diagnostic {
-    Diagnostic::error("settings", title).category(Category::Usage).help("--no-config starts without the file of settings")
+    Diagnostic::error("settings", title)
+        .category(Category::Usage)
+        .help("--no-config starts without the file of settings")
 }
 
 /// Why a line is no setting.
@@ -119,7 +128,7 @@ fn wrong(setting: &Setting) -> Option<Diagnostic> {
         (Some(_), false) => format!("`{name}` is on where it stands; it takes no value"),
         _ => match Cli::try_parse_from([OsString::from("yont"), word(setting)]) {
             Ok(_) => return None,
-            Err(error) => error.to_string().trim_start_matches("error: ").lines().next().unwrap_or_default().to_owned(),
+            Err(error) => words_of(&error),
         },
     };
     Some(refusal(title).at(setting.span, ""))

@@ -86,7 +86,8 @@ pub fn without_effect(making: &Making, outputs: &[Output]) -> Vec<&'static str> 
         matches!(output.format.kind(), Kind::Picture | Kind::Animation) || output.format == Format::ThreeMf
     };
     let moves = |output: &Output| output.format.kind() == Kind::Animation || output.format == Format::Glb;
-    let frames = |output: &Output| moves(output) || matches!(output.target, crate::model::request::Target::Series { .. });
+    let frames =
+        |output: &Output| moves(output) || matches!(output.target, crate::model::request::Target::Series { .. });
     /// An option, whether it was given, and which outputs heed it.
     type Heeded<'a> = (&'static str, bool, &'a dyn Fn(&Output) -> bool);
     let options: [Heeded<'_>; 7] = [

@@ -70,12 +70,13 @@ pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(
 }
 
 /// Tells of a program that could not be read, and of what its name may have been meant to be.
-fn unread_program(console: &Console, file: &Path, error: &FileError) -> Status {
+pub fn unread_program(console: &Console, file: &Path, error: &FileError) -> Status {
     let told = error.diagnostic();
     let missing = error.reason == host::Reason::Missing;
     let tip = file.to_str().filter(|_| missing).and_then(mistakes::other_command);
     let near = tip.or_else(|| Some(format!("did you mean `{}`?", mistakes::other_file(file).filter(|_| missing)?)));
-    console.report(&Default::default(), &[near.into_iter().fold(told, |told, tip| Diagnostic { help: vec![tip], ..told })])
+    console
+        .report(&Default::default(), &[near.into_iter().fold(told, |told, tip| Diagnostic { help: vec![tip], ..told })])
 }
 
 /// A warning for a definition of the command line that changes nothing: most likely its name is misspelt.

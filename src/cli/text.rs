@@ -82,7 +82,7 @@ pub fn doc(console: &Console, signals: &Signals, options: &Doc) -> Result<Status
     }
     match builtins::find(name).map(explain).or_else(|| words::explain(name)) {
         Some(told) => console.print(&told).map(|()| Status::Done),
-        None => Ok(console.usage(&unknown(name, &names, options.file.is_some()))),
+        None => Ok(console.refuse(&unknown(name, &names, options.file.is_some()))),
     }
 }
 
@@ -92,7 +92,9 @@ fn unknown(name: &str, names: &[String], with_file: bool) -> String {
     match near(name, names.iter().map(String::as_str).chain(known)) {
         Some(other) => format!("there is nothing called `{name}`; did you mean `{other}`?"),
         None if with_file => format!("neither the program nor the language has a `{name}`"),
-        None => format!("the language has no `{name}`; `yont doc` lists its functions, --file FILE adds those of a program"),
+        None => {
+            format!("the language has no `{name}`; `yont doc` lists its functions, --file FILE adds those of a program")
+        }
     }
 }
 

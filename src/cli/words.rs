@@ -34,8 +34,16 @@ pub static WORDS: &[Word] = &[
     ("W", "x5 : W;", "A geometric type: rows of a sheet of pictures."),
     ("C", "x6 : C;", "A geometric type: colours over the spectrum, with a legend."),
     ("G", "x8 : G = [0, 1, 2];", "A geometric type: a group of sections, or of levels of the function itself."),
-    ("CONSTANT", "x7 : CONSTANT = 0.5;", "A geometric type: a single section, or another level of the function itself."),
-    ("CENTER", "gob_a : CENTER = [0, 0, 0];", "A point from which the whole boundary is seen, where the user knows one."),
+    (
+        "CONSTANT",
+        "x7 : CONSTANT = 0.5;",
+        "A geometric type: a single section, or another level of the function itself.",
+    ),
+    (
+        "CENTER",
+        "gob_a : CENTER = [0, 0, 0];",
+        "A point from which the whole boundary is seen, where the user knows one.",
+    ),
 ];
 
 /// What there is to say of a word, in any case; nothing if it is none.
@@ -44,8 +52,12 @@ pub fn explain(word: &str) -> Option<String> {
     if crate::model::environment::is_setting(word) {
         let (c, end) = word.split_at(word.find(['m', '_'])?);
         return Some(match end {
-            "_delta" => format!("{word} = 0.1;\n    The step of {c} where it is shown in steps: frames, columns, sections."),
-            _ => format!("{c}min = -10; {c}max = 10;\n    The modelling space along {c}: what lies outside is not shown."),
+            "_delta" => {
+                format!("{word} = 0.1;\n    The step of {c} where it is shown in steps: frames, columns, sections.")
+            }
+            _ => format!(
+                "{c}min = -10; {c}max = 10;\n    The modelling space along {c}: what lies outside is not shown."
+            ),
         });
     }
     let (_, form, what) = WORDS.iter().find(|(known, ..)| known.eq_ignore_ascii_case(word))?;

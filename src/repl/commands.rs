@@ -177,10 +177,12 @@ pub fn without_colon(line: &str) -> Option<String> {
         return Some(":help".into());
     }
     let (word, rest) = plain.split_once(char::is_whitespace).unwrap_or((plain, ""));
-    let name = TABLE.iter().map(|command| command.name).chain(["exit", "bye", "ls", "vars", "clear"]).find(|n| *n == word)?;
+    let name =
+        TABLE.iter().map(|command| command.name).chain(["exit", "bye", "ls", "vars", "clear"]).find(|n| *n == word)?;
     let name = OTHER_WORDS.iter().find(|other| other.0 == name).map_or(name, |other| other.1);
     let said = rest.trim_start();
-    let words = said.is_empty() || said.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '"' | '.' | '/' | '_'));
+    let words =
+        said.is_empty() || said.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '"' | '.' | '/' | '_'));
     words.then(|| format!(":{name} {said}").trim_end().to_owned())
 }
 
@@ -290,7 +292,7 @@ fn first_line(text: &str) -> String {
 fn load(repl: &mut Repl, file: &str) -> Flow {
     match session::read_text(Path::new(unquoted(file))) {
         Ok(text) => repl.feed(unquoted(file), &text, crate::syntax::Mode::Script),
-        Err(error) => Flow::Failed(repl.console.file_error(&error)),
+        Err(error) => Flow::Failed(session::unread_program(&repl.console, Path::new(unquoted(file)), &error)),
     }
 }
 

@@ -315,6 +315,7 @@ fn last_value(typed: &str, shown: &str, number: Option<f64>) -> String {
     match number {
         Some(number) if number.is_finite() => format!("({})", digits(number)),
         _ if single.contains(';') => format!("({shown})"),
+        _ if single.chars().all(|c| c.is_alphanumeric() || c == '_') => single.to_owned(),
         _ => format!("({single})"),
     }
 }

@@ -45,6 +45,7 @@ pub(crate) fn command(folder: &Path) -> assert_cmd::Command {
     // The guard against a hang, not a measure of speed.
     command.current_dir(folder).timeout(Duration::from_secs(300));
     command.env_remove("NO_COLOR").env("XDG_STATE_HOME", folder.join(".state"));
+    command.env("XDG_CONFIG_HOME", folder.join(".config"));
     command
 }
 

@@ -31,5 +31,7 @@ mod repl;
 mod scenes;
 mod session;
 mod solids;
+mod slips;
 mod tidy;
+mod usage;
 mod volumes;
