@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::model::request::{FORMATS, Format};
 use crate::picture::camera::View;
 use crate::picture::palette::Palette;
 
+use super::text::near;
 use super::values::{
     Assignment, Extent, Section, Size, Slices, angles, assignment, extent, positive, section, size, slices,
 };
@@ -248,6 +250,9 @@ pub struct Run {
     /// How results are made
     #[command(flatten)]
     pub making: Making,
+    /// The options that come from the file of settings
+    #[arg(skip)]
+    pub settings: Vec<String>,
 }
 
 fn formats() -> impl TypedValueParser<Value = Format> {
@@ -309,8 +314,8 @@ pub fn option_values(name: &str) -> Vec<String> {
 
 /// What is wrong with an option, in one line: what was found, what would do, what was probably meant.
 #[must_use]
-pub fn words_of(error: &clap::Error) -> String {
-    let text = error.to_string();
+pub fn words_of(error: clap::Error) -> String {
+    let text = with_near(error, &Options::command()).to_string();
     let mut lines = text.lines().map(str::trim);
     let first = lines.next().unwrap_or_default().trim_start_matches("error: ").to_owned();
     let more = lines.filter_map(|line| {
@@ -318,6 +323,37 @@ pub fn words_of(error: &clap::Error) -> String {
         values.or_else(|| line.strip_prefix("tip: ").filter(|tip| tip.contains("similar")))
     });
     [first].into_iter().chain(more.map(str::to_owned)).collect::<Vec<_>>().join("; ")
+}
+
+/// The error with the value or the option that is nearest by our own measure, which counts slips of the keyboard.
+#[must_use]
+pub fn with_near(mut error: clap::Error, command: &clap::Command) -> clap::Error {
+    let word = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.clone()),
+        _ => None,
+    };
+    match error.kind() {
+        ErrorKind::InvalidValue => {
+            let (Some(value), Some(ContextValue::Strings(valid))) =
+                (word(ContextKind::InvalidValue), error.get(ContextKind::ValidValue))
+            else {
+                return error;
+            };
+            if let Some(near) = near(&value, valid.iter().map(String::as_str)).map(str::to_owned) {
+                error.insert(ContextKind::SuggestedValue, ContextValue::String(near));
+            }
+        }
+        ErrorKind::UnknownArgument => {
+            let stray = word(ContextKind::InvalidArg).unwrap_or_default();
+            let name = stray.strip_prefix("--").and_then(|stray| stray.split('=').next()).unwrap_or_default();
+            let names = command.get_arguments().filter_map(clap::Arg::get_long);
+            if let Some(near) = near(name, names).filter(|_| !name.is_empty()) {
+                error.insert(ContextKind::SuggestedArg, ContextValue::String(format!("--{near}")));
+            }
+        }
+        _ => {}
+    }
+    error
 }
 
 impl Making {
@@ -342,7 +378,7 @@ impl Making {
             options.making.look.view = None;
         }
         let read = options.try_update_from(words.split_whitespace());
-        read.map_err(|error| words_of(&error))?;
+        read.map_err(words_of)?;
         Ok(options.making)
     }
 }

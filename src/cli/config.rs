@@ -11,7 +11,7 @@ use crate::host::{Disk, Host, Reason, settings_folder, text};
 use crate::limits::Limits;
 use crate::source::{SourceMap, Span};
 
-use super::arguments::{Cli, words_of};
+use super::arguments::{self, Cli, words_of};
 use super::console::Console;
 use super::status::Status;
 use super::text::near;
@@ -65,7 +65,7 @@ pub fn applied(cli: Cli, arguments: Vec<OsString>) -> Result<Cli, Status> {
     if !told.is_empty() {
         return Err(console.report(&sources, &told));
     }
-    with(&arguments, &settings).map_err(|error| console.report(&sources, &[refusal(words_of(&error))]))
+    with(&arguments, &settings).map_err(|error| console.report(&sources, &[refusal(words_of(error))]))
 }
 
 /// The lines that are neither empty nor comments.
@@ -128,7 +128,7 @@ fn wrong(setting: &Setting) -> Option<Diagnostic> {
         (Some(_), false) => format!("`{name}` is on where it stands; it takes no value"),
         _ => match Cli::try_parse_from([OsString::from("yont"), word(setting)]) {
             Ok(_) => return None,
-            Err(error) => words_of(&error),
+            Err(error) => words_of(error),
         },
     };
     Some(refusal(title).at(setting.span, ""))
@@ -152,10 +152,13 @@ fn with(arguments: &[OsString], settings: &[Setting]) -> Result<Cli, clap::Error
         }
         None => (&whole, &matches, 1),
     };
-    let words = settings.iter().filter(|setting| fits(level, given, &setting.name)).map(word);
+    let fitting: Vec<&Setting> = settings.iter().filter(|setting| fits(level, given, &setting.name)).collect();
     let mut all = arguments.to_vec();
-    all.splice(at..at, words);
-    Cli::from_arg_matches(&Cli::command().try_get_matches_from(all)?)
+    all.splice(at..at, fitting.iter().map(|setting| word(setting)));
+    let mut cli = Cli::from_arg_matches(&Cli::command().try_get_matches_from(all)?)?;
+    let run = if let Some(arguments::Command::Run(run)) = &mut cli.command { run } else { &mut cli.run };
+    run.settings = fitting.iter().map(|setting| setting.name.clone()).collect();
+    Ok(cli)
 }
 
 /// Whether a command has that option, and nothing on the command line says it or excludes it.

@@ -9,7 +9,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use crate::host::{Disk, Host};
 use crate::model::request::{Format, Kind, Output};
 
-use super::arguments::{Cli, Images, Making};
+use super::arguments::{Cli, Images, Making, with_near};
 use super::text::near;
 
 /// Words of other programs for what a command or an option does here.
@@ -31,6 +31,9 @@ const OTHER_WORDS: [(&str, &str); 12] = [
 /// The error with a tip where the mistake is a known one.
 #[must_use]
 pub fn explained(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
+    let whole = Cli::command();
+    let named = arguments.iter().skip(1).filter_map(|word| whole.find_subcommand(word)).next();
+    error = with_near(error, named.unwrap_or(&whole));
     if error.kind() != ErrorKind::UnknownArgument {
         return error;
     }

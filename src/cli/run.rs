@@ -60,7 +60,9 @@ fn idle(run: &Run, outputs: &[Output], empty: bool) -> Vec<Diagnostic> {
     if outputs.is_empty() && (empty || run.interactive || show::drawing(run.making.display.images).is_some()) {
         return Vec::new();
     }
-    let options = mistakes::without_effect(&run.making, outputs);
+    let mut options = mistakes::without_effect(&run.making, outputs);
+    // What holds for every run need not serve in each.
+    options.retain(|option| !run.settings.iter().any(|setting| option.trim_start_matches('-') == setting));
     let warning = |option: &&str| {
         let title = match outputs {
             [] => format!("{option} has no effect: nothing is made"),

@@ -159,7 +159,7 @@ fn what_is_told_of_names() {
                 "reads: gob_ball, gob_hole",
             ],
         ),
-        ("gob_box", &["a plane figure", "share no coordinate"]),
+        ("gob_box", &["x3 : Z by default", "share no coordinate"]),
         ("gob_odd", &["sides share x1", "empty"]),
         ("gob_log", &["perhaps undefined"]),
         ("gob_full", &["x4 : T, from 0 to 1", "fills the whole space"]),

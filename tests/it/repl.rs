@@ -228,12 +228,11 @@ fn pictures_on_a_terminal() {
 fn a_pasted_program_works() {
     let state = state();
     let mut terminal = terminal(state.path());
-    let program =
-        "{ A\n  ball }\nr = 2;\ngob_ball = r**2\n  - x1**2;\nFOR i = 1 TO 3 DO BEGIN\n  r = r + i;\nEND;\nr + 10\n";
+    let program = "r = 2;\n{ A bead\n  to be pasted }\ngob_ball = r**2\n  - x1**2;\nFOR i = 1 TO 3 DO BEGIN\n  r = r + i;\nEND;\nr + 10\n";
     terminal.send(format!("\x1b[200~{program}\x1b[201~\r")).expect("pasted");
     answer(&mut terminal, "18");
     terminal.send_line("gob_ball?").expect("typed");
-    answer(&mut terminal, "A");
+    answer(&mut terminal, "to be pasted");
     terminal.send(ControlCode::EndOfTransmission).expect("typed");
     terminal.expect(expectrl::Eof).expect("Ctrl-D leaves");
 }

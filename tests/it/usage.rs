@@ -88,6 +88,7 @@ fn the_file_of_settings() {
         ("--size=32x24\n", &["ball.geo", "-o", "a.png", "-v", "--size", "40x30"], &[], &["40 x 30 pixels"], 0),
         ("size 32x24\n", &["ball.geo", "-o", "a.png", "-v", "--no-config"], &[], &["640 x 480"], 0),
         ("view top\n", &["ball.geo", "-o", "a.png", "--camera", "1,2", "--size", "8x8"], &[], &["a.png"], 0),
+        ("fps 7\n", &["ball.geo", "-o", "a.png", "--size", "8x8"], &[], &["a.png\n"], 0),
         ("cell 3\n", &["ball.geo", "-o", "a.stl", "--resolution", "8"], &[], &["a.stl"], 0),
         ("verbose\n", &["ball.geo", "-o", "a.stl", "-q", "--resolution", "8"], &[], &[], 0),
         ("resolution 8\n", &["measure", "ball.geo", "--json"], &["\"resolution\":8"], &[], 0),
