@@ -48,7 +48,7 @@ fn after_help() -> String {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Runs a program; what `yont FILE` does
-    Run(Run),
+    Run(Box<Run>),
     /// Each object: dimension, coordinates and types, bounds, size of its program
     Info(Info),
     /// Volume, area, centroid, inertia, bounding box and genus, with error estimates

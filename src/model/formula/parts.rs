@@ -57,12 +57,15 @@ impl Part {
     }
 }
 
+/// The words for a leaf: the first two arguments of INTERPOLATE.
+type Leaves<'a> = Box<dyn Fn(&SharedLeaf) -> Option<String> + 'a>;
+
 /// Writes nodes in ascending order.
 pub(super) struct Writer<'a> {
     graph: &'a Graph,
     uses: FxHashMap<NodeId, usize>,
     main: Option<InForce>,
-    leaves: Box<dyn Fn(&SharedLeaf) -> Option<String> + 'a>,
+    leaves: Leaves<'a>,
     parts: FxHashMap<NodeId, Part>,
     bindings: Vec<(String, String)>,
     rewritten: bool,
