@@ -291,6 +291,10 @@ fn shallow(region: SharedRegion) -> Result<SharedRegion, Refused> {
 ///
 /// A maximum leaves an undefined operand aside and so may jump where that one begins: its operands must be defined everywhere.
 fn is_continuous(graph: &Graph, root: NodeId) -> bool {
+    is_continuous_in(graph, root, Coordinates::one(Coordinate(1)))
+}
+
+fn is_continuous_in(graph: &Graph, root: NodeId, by: Coordinates) -> bool {
     use Binary::{Add, Div, Hypot, Max, Min, Mul, Pow, Sub};
     let reached = reachable_all(graph, &[root]);
     let mut total = vec![false; reached.len()];
@@ -304,9 +308,16 @@ fn is_continuous(graph: &Graph, root: NodeId) -> bool {
             Node::Binary(op, ..) => matches!(op, Add | Sub | Mul | Div | Min | Pow | Hypot),
             Node::Ternary(op, _) => *op != Ternary::Select,
             Node::Constant(_) | Node::Coordinate(_) => true,
+            // The highest value of what is continuous in all its parameters moves continuously with them.
+            Node::Region(region, 0, _) => match *region.0.form() {
+                Form::Section { body, .. } | Form::Ball { body, .. } => {
+                    is_continuous_in(region.0.graph(), body, Coordinates(u128::MAX))
+                }
+                Form::Loop { .. } => false,
+            },
             Node::Leaf(..) | Node::Region(..) | Node::Map(..) => false,
         };
-        if !continuous && graph.coordinates(id).contains(Coordinate(1)) {
+        if !continuous && graph.coordinates(id).meets(by) {
             return false;
         }
         total[id.index()] = operands && is_total(node);

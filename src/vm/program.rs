@@ -135,13 +135,6 @@ impl Program {
         !self.regions.is_empty()
     }
 
-    /// What its loops and searches have cost until now, this program and those specialised from it taken together.
-    #[must_use]
-    pub fn region_counts(&self) -> super::region::Counts {
-        let counts = self.regions.iter().map(|region| region.counts());
-        counts.fold(super::region::Counts::default(), super::region::Counts::plus)
-    }
-
     /// Number of operations.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -4,8 +4,6 @@
 mod repeat;
 mod search;
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use super::compile::CompileError;
 use super::kernels::{Kind, Store};
 use super::program::{Demand, Program, Value};
@@ -20,8 +18,8 @@ use search::Probe;
 pub struct Counts {
     /// Turns of loops, over all points.
     pub turns: u64,
-    /// Points that took more turns than allowed, and so are undefined.
-    pub exceeded: u64,
+    /// Loops that took more turns than allowed at some point, which is undefined there.
+    pub endless: u64,
     /// Points at which a highest value was searched.
     pub searches: u64,
 }
@@ -32,7 +30,7 @@ impl Counts {
     pub fn plus(self, other: Self) -> Self {
         Self {
             turns: self.turns + other.turns,
-            exceeded: self.exceeded + other.exceeded,
+            endless: self.endless + other.endless,
             searches: self.searches + other.searches,
         }
     }
@@ -66,9 +64,6 @@ impl Body {
 #[derive(Debug)]
 pub(crate) struct RegionProgram {
     work: Work,
-    turns: AtomicU64,
-    exceeded: AtomicU64,
-    searches: AtomicU64,
 }
 
 #[derive(Debug)]
@@ -109,30 +104,22 @@ impl RegionProgram {
                 directions: directions(*dimension),
             },
         };
-        let zero = || AtomicU64::new(0);
-        Ok(Self { work, turns: zero(), exceeded: zero(), searches: zero() })
-    }
-
-    /// What it has cost.
-    pub(crate) fn counts(&self) -> Counts {
-        let get = |count: &AtomicU64| count.load(Ordering::Relaxed);
-        Counts { turns: get(&self.turns), exceeded: get(&self.exceeded), searches: get(&self.searches) }
+        Ok(Self { work })
     }
 
     /// Runs it on the first lanes of what it was given.
     pub(crate) fn run<K: Pointwise>(&self, store: &mut RegionStore<K>, lanes: usize) {
         match &self.work {
             Work::Loop { body, limit } => {
-                let (turns, exceeded) = repeat::points(body, *limit, store, lanes);
-                self.turns.fetch_add(turns, Ordering::Relaxed);
-                self.exceeded.fetch_add(exceeded, Ordering::Relaxed);
+                let (turns, endless) = repeat::points(body, *limit, store, lanes);
+                store.counts = store.counts.plus(Counts { turns, endless, searches: 0 });
             }
             Work::Section { body, both, continuous, budget } => {
-                self.searches.fetch_add(lanes as u64, Ordering::Relaxed);
+                store.counts.searches += lanes as u64;
                 search::sections(body, both, (*continuous, *budget), store, lanes);
             }
             Work::Ball { body, dimension, directions } => {
-                self.searches.fetch_add(lanes as u64, Ordering::Relaxed);
+                store.counts.searches += lanes as u64;
                 search::balls(body, *dimension, directions, store, lanes);
             }
         }
@@ -166,6 +153,7 @@ pub(crate) struct RegionStore<K: Kind> {
     /// For loops over boxes, by lane.
     turns: Vec<Turns>,
     probe: Option<Box<Probe>>,
+    counts: Counts,
 }
 
 impl<K: Kind> RegionStore<K> {
@@ -180,7 +168,13 @@ impl<K: Kind> RegionStore<K> {
             going: Vec::new(),
             turns: Vec::new(),
             probe: None,
+            counts: Counts::default(),
         }
+    }
+
+    /// What it has cost since the last call, regions within it included.
+    pub(crate) fn take_counts(&mut self) -> Counts {
+        std::mem::take(&mut self.counts).plus(self.inner.take_counts())
     }
 
     /// Takes an argument.

@@ -14,7 +14,7 @@ pub(super) fn points<K: Pointwise>(
     lanes: usize,
 ) -> (u64, u64) {
     let states = begin(body, store, lanes);
-    let (mut active, mut taken, mut exceeded) = (lanes, 0, 0);
+    let (mut active, mut taken, mut endless) = (lanes, 0, 0);
     for turn in 0.. {
         store.run(&body.program, active);
         let condition = store.inner.of(&body.program, body.roots[0]);
@@ -31,7 +31,7 @@ pub(super) fn points<K: Pointwise>(
             }
         }
         if turn == limit {
-            exceeded = store.going.len() as u64;
+            endless = store.going.len() as u64;
             for &i in &store.going {
                 for state in 0..states {
                     K::set(&mut store.outputs[state], store.places[i], K::constant(f64::NAN));
@@ -51,7 +51,7 @@ pub(super) fn points<K: Pointwise>(
         active = advance(body, store, states, active);
         taken += active as u64;
     }
-    (taken, exceeded)
+    (taken, endless)
 }
 
 /// Puts the arguments into the inner inputs; the number of variables.
