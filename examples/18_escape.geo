@@ -20,4 +20,4 @@ END;
 gob_escape = 16 - DOT(z, z);
 
 x4 : CONSTANT = 0;
-x1min = -1.6;  x1max = 1.6;  x2min = -1.3;  x2max = 1.3;  x3min = -1.3;  x3max = 1.3;
+x1min = -1.1;  x1max = 1.1;  x2min = -1.1;  x2max = 1.1;  x3min = -1.1;  x3max = 1.1;

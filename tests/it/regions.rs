@@ -360,7 +360,7 @@ fn boxes_of_a_fractal_have_the_signs_of_dense_sampling() {
     let script = std::fs::read_to_string(path).expect("the example");
     let (session, node) = given(&format!("{script} v = gob_escape AT (x4 = 0);"));
     let shape = |demand| Shape::new(program(session.graph(), node, demand), 3, Vec::new());
-    let grid = Grid::new(&[[-1.6, 1.6], [-1.3, 1.3], [-1.3, 1.3]], 48).expect("a grid");
+    let grid = Grid::new(&[[-1.1, 1.1]; 3], 48).expect("a grid");
     compare_signs("the fractal", &shape(Demand::Sign), &shape(Demand::Value), &grid);
     let found = extract(&shape(Demand::Sign), &grid, &Limits::default(), &Interrupt::default()).expect("a mesh");
     yont::surface::check(&found.mesh).expect("closed");

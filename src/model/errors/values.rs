@@ -61,6 +61,41 @@ pub fn needs_numbers(place: &str, value: &Value, span: Span) -> Diagnostic {
         .help("write it like `[0, 1, 2]`")
 }
 
+/// A COLOR that is neither red, green and blue nor one value.
+pub fn bad_colour(value: &Value, span: Span) -> Diagnostic {
+    let found = match value {
+        Value::Array(a) if a.items().iter().all(|v| matches!(v, Value::Scalar(_))) => {
+            format!("an array of {}", a.items().len())
+        }
+        Value::Array(_) => "an array of arrays".to_owned(),
+        other => other.kind().to_owned(),
+    };
+    let title = format!("COLOR needs red, green and blue, or one value for the palette, not {found}");
+    Diagnostic::error("bad-colour", title)
+        .at(span, found)
+        .help("write red, green and blue from 0 to 1, `COLOR = [1, 0.5, 0]`")
+        .help("or a value and the range that the palette shows, `COLOR = x3 IN [-1, 1]`")
+}
+
+/// A part of a COLOR that is known to lie outside of 0 to 1.
+pub fn colour_outside(v: f64, span: Span) -> Diagnostic {
+    let help =
+        if v > 1.0 && v <= 255.0 { "divide by 255: `[r, g, b]/255`" } else { "write `COLOR = [1, 0.5, 0]`, say" };
+    Diagnostic::error(
+        "bad-colour",
+        format!("red, green and blue go from 0 to 1, and one of them is {}", value::number(v)),
+    )
+    .at(span, "")
+    .help(help)
+}
+
+/// A range behind red, green and blue.
+pub fn colour_with_range(span: Span) -> Diagnostic {
+    Diagnostic::error("bad-colour", "red, green and blue are shown as they are; a range belongs to one value")
+        .at(span, "")
+        .help("leave out `IN [...]`, or give one value: `COLOR = x3 IN [-1, 1]`")
+}
+
 /// Something that must be a text.
 pub fn needs_text(place: &str, value: &Value, span: Span) -> Diagnostic {
     Diagnostic::error("needs-text", format!("{place} must be a text in quotes, not {}", value.kind()))
