@@ -11,13 +11,15 @@ c = [-0.213, -0.0410, -0.563, -0.560];
 
 { The orbit of the point, for ten steps or until it is far away }
 z = [x1, x2, x3, x4];
+r = DOT(z, z);
 n = 0;
-WHILE (n < 10 AND DOT(z, z) <= 16) DO BEGIN
+WHILE (n < 10 AND r <= 16) DO BEGIN
   z = [z[1]**2 - z[2]**2 - z[3]**2 - z[4]**2, 2*z[1]*z[2], 2*z[1]*z[3], 2*z[1]*z[4]] + c;
+  r = DOT(z, z);
   n = n + 1;
 END;
 
-gob_escape = 16 - DOT(z, z);
+gob_escape = 16 - r;
 
 x4 : CONSTANT = 0;
 x1min = -1.1;  x1max = 1.1;  x2min = -1.1;  x2max = 1.1;  x3min = -1.1;  x3max = 1.1;

@@ -59,7 +59,11 @@ pub struct Sampler {
 
 /// Points handed to a program at once: so few operations in all that a request to stop is heard within some hundredths of a second.
 fn at_once(program: &Program) -> usize {
-    if program.len() > 50_000 || program.has_regions() { 128 } else { 1024 }
+    match program {
+        slow if slow.has_searches() => 16,
+        long if long.has_regions() || long.len() > 50_000 => 128,
+        _ => 1024,
+    }
 }
 
 impl Sampler {

@@ -69,10 +69,7 @@ impl Op {
             Self::Constant(_) => {}
             Self::Unary(_, a) | Self::WithRight(_, a, _) | Self::WithLeft(_, _, a) => f(a),
             Self::Region(_, a) | Self::Output(_, _, a) => f(a),
-            Self::Binary(_, a, b)
-            | Self::Join(_, a, b, _)
-            | Self::Extreme(_, _, a, b)
-            | Self::Give(_, _, a, b) => {
+            Self::Binary(_, a, b) | Self::Join(_, a, b, _) | Self::Extreme(_, _, a, b) | Self::Give(_, _, a, b) => {
                 f(a);
                 f(b);
             }
@@ -133,6 +130,12 @@ impl Program {
     #[must_use]
     pub fn has_regions(&self) -> bool {
         !self.regions.is_empty()
+    }
+
+    /// Whether an operation searches for a highest value, so that a point takes longer still.
+    #[must_use]
+    pub fn has_searches(&self) -> bool {
+        self.regions.iter().any(|region| region.searches())
     }
 
     /// Number of operations.

@@ -251,7 +251,10 @@ pub fn check_defined(operands: &[Scalar], result: Scalar, what: impl FnOnce() ->
 
 /// A function of the coordinates divided by a number that is 0.
 pub fn divides_by_zero(span: Span, divisor: Span) -> Diagnostic {
-    Diagnostic::error("division-by-zero", "this divides by zero at every point").at(divisor, "is 0").see(span, "")
+    Diagnostic::error("division-by-zero", "this divides by zero at every point")
+        .at(divisor, "is 0")
+        .see(span, "")
+        .help("the divisor is the same at every point: is a parameter 0 that should not be?")
 }
 
 /// A space that ends where it begins, or before.
@@ -265,9 +268,12 @@ pub fn no_extent(c: Coordinate, (lo, lo_at): (f64, Option<Span>), (hi, hi_at): (
 
 /// A setting at the end of a block, with which it ends.
 pub fn setting_is_lost(name: &str, span: Span) -> Diagnostic {
-    Diagnostic::warning("setting-is-lost", format!("`{name}` changes nothing here: it is set for the rest of its block only"))
-        .at(span, "the block ends here")
-        .help(format!("set it outside: `{name} = IF ... THEN ... ELSE ...;`"))
+    Diagnostic::warning(
+        "setting-is-lost",
+        format!("`{name}` changes nothing here: it is set for the rest of its block only"),
+    )
+    .at(span, "the block ends here")
+    .help(format!("set it outside: `{name} = IF ... THEN ... ELSE ...;`"))
 }
 
 /// `r_alpha` or `r_m` out of range.

@@ -36,8 +36,9 @@ pub fn directions(dimension: usize) -> Vec<Vec<f64>> {
         let steps: &[f64] = if dimension == 2 { &[-2.0, -1.0, 0.0, 1.0, 2.0] } else { &[-1.0, 0.0, 1.0] };
         let count = steps.len().pow(u32::try_from(dimension).unwrap_or(3));
         for i in 0..count {
-            let v: Vec<f64> =
-                (0..dimension).map(|k| steps[i / steps.len().pow(u32::try_from(k).unwrap_or(0)) % steps.len()]).collect();
+            let v: Vec<f64> = (0..dimension)
+                .map(|k| steps[i / steps.len().pow(u32::try_from(k).unwrap_or(0)) % steps.len()])
+                .collect();
             let rim = v.iter().any(|x| x.abs() == steps[steps.len() - 1]);
             if rim {
                 all.push(unit(v));

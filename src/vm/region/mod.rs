@@ -7,8 +7,9 @@ mod search;
 use super::compile::CompileError;
 use super::kernels::{Kind, Store};
 use super::program::{Demand, Program, Value};
-use crate::field::{Coordinate, Form, NodeId, Region};
+use crate::field::{Bound, Coordinate, Form, NodeId, Region};
 use crate::limits::Limits;
+use crate::number::Interval;
 use crate::number::extremum::ball::directions;
 use crate::number::turns::Turns;
 use search::Probe;
@@ -68,8 +69,8 @@ pub(crate) struct RegionProgram {
 
 #[derive(Debug)]
 enum Work {
-    /// The condition, then the next values.
-    Loop { body: Body, limit: usize },
+    /// The condition, then the next values of the variables, then the parts of the condition; what is known where those fail.
+    Loop { body: Body, states: usize, guards: Vec<Option<(usize, Interval)>>, limit: usize },
     /// The value; the value and its derivative.
     Section { body: Body, both: Body, continuous: bool, budget: usize },
     /// The value, over so many parameters that move.
@@ -87,11 +88,15 @@ impl RegionProgram {
             used.map(|c| usize::from(c.0)).max().unwrap_or(0)
         };
         let roots = region.form().roots();
-        let compile = |roots: &[NodeId], least: usize| {
-            Body::compile(region, roots, coordinates(roots).max(least), limits)
-        };
+        let compile =
+            |roots: &[NodeId], least: usize| Body::compile(region, roots, coordinates(roots).max(least), limits);
         let work = match region.form() {
-            Form::Loop { next, .. } => Work::Loop { body: compile(&roots, next.len())?, limit: limits.point_turns },
+            Form::Loop { next, guards, .. } => Work::Loop {
+                body: compile(&roots, next.len())?,
+                states: next.len(),
+                guards: guards.iter().map(|guard| guard.bound.map(Bound::within)).collect(),
+                limit: limits.point_turns,
+            },
             Form::Section { continuous, .. } => Work::Section {
                 body: compile(&roots[..1], 1)?,
                 both: compile(&roots, 1)?,
@@ -107,11 +112,19 @@ impl RegionProgram {
         Ok(Self { work })
     }
 
+    /// Whether it searches for a highest value, or a part of it does.
+    pub(crate) fn searches(&self) -> bool {
+        match &self.work {
+            Work::Loop { body, .. } => body.program.has_searches(),
+            Work::Section { .. } | Work::Ball { .. } => true,
+        }
+    }
+
     /// Runs it on the first lanes of what it was given.
     pub(crate) fn run<K: Pointwise>(&self, store: &mut RegionStore<K>, lanes: usize) {
         match &self.work {
-            Work::Loop { body, limit } => {
-                let (turns, endless) = repeat::points(body, *limit, store, lanes);
+            Work::Loop { body, states, limit, .. } => {
+                let (turns, endless) = repeat::points(body, *states, *limit, store, lanes);
                 store.counts = store.counts.plus(Counts { turns, endless, searches: 0 });
             }
             Work::Section { body, both, continuous, budget } => {
@@ -128,7 +141,9 @@ impl RegionProgram {
     /// Bounds what it puts out, over the boxes in the first lanes.
     pub(crate) fn run_ranges(&self, store: &mut RegionStore<super::interval::Ranges>, lanes: usize) {
         match &self.work {
-            Work::Loop { body, limit } => repeat::ranges(body, *limit, store, lanes),
+            Work::Loop { body, states, guards, limit } => {
+                repeat::ranges(body, (*states, guards), *limit, store, lanes);
+            }
             Work::Section { both, continuous, .. } => search::section_ranges(both, *continuous, store, lanes),
             Work::Ball { body, dimension, directions } => {
                 search::ball_ranges(body, *dimension, directions, store, lanes);
