@@ -59,6 +59,11 @@ impl Session {
         self.names().into_iter().filter(|n| n.starts_with("gob_")).collect()
     }
 
+    /// The message about a name that nothing defines.
+    pub(super) fn unknown(&self, name: &str) -> Diagnostic {
+        errors::unknown_name(&self.state, name, &[], false, &Default::default())
+    }
+
     fn last_object(&self) -> Option<Name> {
         self.state.program().iter().rev().find_map(|entry| {
             let Entry::Definition(definition) = entry else { return None };
@@ -74,11 +79,11 @@ impl Session {
                 Diagnostic::error("not-an-object", format!("`{name}` is {}, not an object", other.kind()))
                     .help("an object is a function of the coordinates: `gob_ball = 1 - x1**2 - x2**2 - x3**2;`"),
             ]),
-            Some(Err(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(*told).clone() }]),
+            Some(Err(told)) => Err(vec![severe(&told)]),
             None if self.is_defined(name) => {
                 Err(vec![Diagnostic::error("never-assigned", format!("`{name}` has no value"))])
             }
-            None => Err(vec![errors::unknown_name(&self.state, name, &[], false, &Default::default())]),
+            None => Err(vec![self.unknown(name)]),
         }
     }
 
@@ -92,7 +97,7 @@ impl Session {
                 let place = self.state.get(name).map(|d| d.place());
                 Err(vec![place.into_iter().fold(told, |told, span| told.at(span, ""))])
             }
-            Some(Err(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(*told).clone() }]),
+            Some(Err(told)) => Err(vec![severe(&told)]),
         }
     }
 
@@ -141,7 +146,7 @@ impl Session {
     fn type_value(&self, declared: &Declared) -> Asked<Option<Value>> {
         match self.state.kept(declared.definition.id) {
             Some(Kept::One(value)) => Ok(Some(value.clone())),
-            Some(Kept::Failed(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(**told).clone() }]),
+            Some(Kept::Failed(told)) => Err(vec![severe(told)]),
             _ => Ok(None),
         }
     }
@@ -178,6 +183,11 @@ impl Session {
         };
         Ok(Some(Colour { of, place }))
     }
+}
+
+/// A message that was a note when it was found, as the error that it is for who asks.
+pub(super) fn severe(told: &Diagnostic) -> Diagnostic {
+    Diagnostic { severity: Severity::Error, ..told.clone() }
 }
 
 fn numbers(value: &Value) -> Vec<f64> {

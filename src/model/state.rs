@@ -248,6 +248,18 @@ impl State {
         self.apply(Change::Pinned(name, true));
     }
 
+    /// Forgets every definition, type and setting.
+    pub fn clear(&mut self) {
+        let names: Vec<Name> = self.names.keys().cloned().collect();
+        let types: Vec<Name> = self.types.keys().cloned().collect();
+        let pinned: Vec<Name> = self.pinned.iter().cloned().collect();
+        names.into_iter().for_each(|name| self.apply(Change::Name(name, None)));
+        types.into_iter().for_each(|subject| self.apply(Change::Type(subject, None)));
+        pinned.into_iter().for_each(|name| self.apply(Change::Pinned(name, false)));
+        self.set_system(SystemInForce::Plain);
+        self.apply(Change::Program(0, Vec::new()));
+    }
+
     /// Keeps the result of a definition.
     pub fn keep(&mut self, id: DefinitionId, kept: Kept) {
         let before = self.kept.insert(id, kept);

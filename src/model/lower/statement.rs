@@ -1,5 +1,5 @@
 //! Statements inside bodies, loops and branches: run over local names. A loop whose condition is a number is unrolled; one whose
-//! condition depends on a coordinate is run at each point, by choosing turn after turn.
+//! condition depends on a coordinate becomes a loop that runs at each point, or, where its body needs numbers, a choice after each turn.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use super::super::names;
 use super::super::value::{Active, Array, Scalar, Value};
 use super::{Fault, Lower, Lowered, Slot, system_of};
 
-/// Turns of a loop that is run at each point, before it is refused.
+/// Turns of a loop that depends on a coordinate and is unrolled all the same, before it is refused.
 const POINT_TURNS: usize = 10_000;
 
 impl Lower<'_> {
@@ -98,6 +98,9 @@ impl Lower<'_> {
                 Scalar::Number(value) if !is_true(value) => break,
                 Scalar::Number(_) => {}
                 Scalar::Node(id) => {
+                    if undecided.is_empty() && self.at_each_point(condition, body, &names)? {
+                        return Ok(());
+                    }
                     if undecided.len() >= POINT_TURNS {
                         let coordinates = self.graph.coordinates(id);
                         return Err(errors::unbounded_loop(coordinates, POINT_TURNS, condition.span).into());
@@ -138,12 +141,12 @@ impl Lower<'_> {
         Ok(())
     }
 
-    fn slots(&self, names: &[Name]) -> Vec<Slot> {
+    pub(super) fn slots(&self, names: &[Name]) -> Vec<Slot> {
         let find = |name: &Name| self.locals[self.frame..].iter().rev().find(|l| l.name == *name);
         names.iter().map(|name| find(name).map_or(Slot::Unset, |l| l.slot.clone())).collect()
     }
 
-    fn put_slots(&mut self, names: &[Name], slots: Vec<Slot>) {
+    pub(super) fn put_slots(&mut self, names: &[Name], slots: Vec<Slot>) {
         let frame = self.frame;
         for (name, slot) in names.iter().zip(slots) {
             if let Some(local) = self.locals[frame..].iter_mut().rev().find(|l| l.name == *name) {

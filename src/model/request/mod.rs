@@ -11,16 +11,19 @@ pub mod measured;
 pub mod output;
 pub mod paint;
 mod pictures;
+mod preview;
 mod solids;
 pub mod subject;
 mod together;
 
+pub(super) use ask::role;
 pub use ask::{Info, info, measure, sample, write};
 pub use fields::Sampled;
 pub use make::Written;
 pub use measured::Measured;
 pub use output::{FORMATS, Format, Kind, Output, Target};
 pub use paint::{colours_at, colours_of};
+pub use preview::{headline, preview};
 pub use subject::{Sequence, Subject};
 pub use together::subject;
 
