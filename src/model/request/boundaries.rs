@@ -31,6 +31,7 @@ impl Making<'_> {
     /// One mesh a file, or all frames in one, or all sections in one.
     pub(super) fn meshes(&mut self) -> Result<(), Diagnostic> {
         self.need(3, "a mesh")?;
+        self.subject.is_alone("a mesh")?;
         let is_glb = self.output.format == Format::Glb;
         let shown = self.subject.shown_by("such a mesh", if is_glb { &["G", "C", "levels"] } else { &[] });
         shown.map_err(|told| if is_glb { told } else { told.help("a .glb holds a group; a .png shows a sheet") })?;
@@ -160,6 +161,7 @@ impl Making<'_> {
     /// Outlines of a plane figure: one group of paths a section.
     pub(super) fn outlines(&mut self) -> Result<(), Diagnostic> {
         self.need(2, "an outline")?;
+        self.subject.is_alone("an outline")?;
         self.subject.shown_by("an outline", &["G", "C", "levels"])?;
         let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
         let members = self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?;
@@ -190,9 +192,10 @@ impl Making<'_> {
 
     fn cut(&mut self, extraction: &Extraction) {
         let mut faces = Vec::new();
-        for (axis, sides) in self.subject.axes.iter().zip(extraction.report.cut) {
+        let asked = self.subject.cut;
+        for (k, (axis, sides)) in self.subject.axes.iter().zip(extraction.report.cut).enumerate() {
             for (side, (cut, which)) in sides.into_iter().zip(["min", "max"]).enumerate() {
-                if cut {
+                if cut && !asked[k][side] {
                     faces.push(format!("{}{which} = {}", axis.coordinate, axis.range[side]));
                 }
             }
