@@ -413,6 +413,13 @@ pub fn state_folder() -> Option<PathBuf> {
     etcetera::base_strategy::Xdg::new().ok()?.state_dir().map(|folder| folder.join("yont"))
 }
 
+/// The folder for settings: `$XDG_CONFIG_HOME/yont`, by default `~/.config/yont`.
+#[must_use]
+pub fn settings_folder() -> Option<PathBuf> {
+    use etcetera::BaseStrategy;
+    Some(etcetera::base_strategy::Xdg::new().ok()?.config_dir().join("yont"))
+}
+
 /// The value of a variable of the environment; an empty one counts as none.
 #[must_use]
 pub fn variable(name: &str) -> Option<String> {

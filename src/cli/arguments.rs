@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::model::request::{FORMATS, Format};
 use crate::picture::camera::View;
 use crate::picture::palette::Palette;
 
+use super::text::near;
 use super::values::{
     Assignment, Camera, Cutting, Extent, Ground, Section, Size, Slices, angles, assignment, background, camera, cut,
     extent, positive, section, size, slices,
@@ -91,6 +93,9 @@ pub struct Common {
     /// The form of errors, warnings and notes
     #[arg(long, value_name = "FORM", global = true, default_value = "human")]
     pub diagnostics: Rendering,
+    /// Start without the settings of the file that `yont info --paths` names
+    #[arg(long, global = true)]
+    pub no_config: bool,
     /// Warnings count as errors
     #[arg(short = 'W', long = "warnings-as-errors", global = true)]
     pub strict: bool,
@@ -153,7 +158,7 @@ pub struct Program {
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// The program itself, repeatable; runs after FILE
-    #[arg(short = 'e', long = "evaluate", value_name = "CODE")]
+    #[arg(short = 'e', long = "evaluate", value_name = "CODE", allow_hyphen_values = true)]
     pub code: Vec<String>,
     /// Define NAME, whatever the program says, repeatable
     #[arg(short = 'D', long = "define", value_name = "NAME=EXPR", value_parser = assignment)]
@@ -297,6 +302,9 @@ pub struct Run {
     /// How results are made
     #[command(flatten)]
     pub making: Making,
+    /// The options that come from the file of settings
+    #[arg(skip)]
+    pub settings: Vec<String>,
 }
 
 fn formats() -> impl TypedValueParser<Value = Format> {
@@ -356,6 +364,50 @@ pub fn option_values(name: &str) -> Vec<String> {
     values.iter().map(|value| value.get_name().to_owned()).collect()
 }
 
+/// What is wrong with an option, in one line: what was found, what would do, what was probably meant.
+#[must_use]
+pub fn words_of(error: clap::Error) -> String {
+    let text = with_near(error, &Options::command()).to_string();
+    let mut lines = text.lines().map(str::trim);
+    let first = lines.next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    let more = lines.filter_map(|line| {
+        let values = line.strip_prefix('[').and_then(|line| line.strip_suffix(']'));
+        values.or_else(|| line.strip_prefix("tip: ").filter(|tip| tip.contains("similar")))
+    });
+    [first].into_iter().chain(more.map(str::to_owned)).collect::<Vec<_>>().join("; ")
+}
+
+/// The error with the value or the option that is nearest by our own measure, which counts slips of the keyboard.
+#[must_use]
+pub fn with_near(mut error: clap::Error, command: &clap::Command) -> clap::Error {
+    let word = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.clone()),
+        _ => None,
+    };
+    match error.kind() {
+        ErrorKind::InvalidValue => {
+            let (Some(value), Some(ContextValue::Strings(valid))) =
+                (word(ContextKind::InvalidValue), error.get(ContextKind::ValidValue))
+            else {
+                return error;
+            };
+            if let Some(near) = near(&value, valid.iter().map(String::as_str)).map(str::to_owned) {
+                error.insert(ContextKind::SuggestedValue, ContextValue::String(near));
+            }
+        }
+        ErrorKind::UnknownArgument => {
+            let stray = word(ContextKind::InvalidArg).unwrap_or_default();
+            let name = stray.strip_prefix("--").and_then(|stray| stray.split('=').next()).unwrap_or_default();
+            let names = command.get_arguments().filter_map(clap::Arg::get_long);
+            if let Some(near) = near(name, names).filter(|_| !name.is_empty()) {
+                error.insert(ContextKind::SuggestedArg, ContextValue::String(format!("--{near}")));
+            }
+        }
+        _ => {}
+    }
+    error
+}
+
 impl Making {
     /// These with the options in `words` laid over them: `--resolution 64 --view top`. Of two that exclude each other, the
     /// one said last stays.
@@ -378,7 +430,7 @@ impl Making {
             options.making.look.view = None;
         }
         let read = options.try_update_from(words.split_whitespace());
-        read.map_err(|error| error.to_string().trim_start_matches("error: ").lines().next().unwrap_or("").to_owned())?;
+        read.map_err(words_of)?;
         Ok(options.making)
     }
 }
@@ -392,6 +444,9 @@ pub struct Info {
     /// Only this object
     #[arg(long, value_name = "NAME")]
     pub object: Option<String>,
+    /// Instead: where settings, history and journals lie
+    #[arg(long, conflicts_with_all = ["file", "code", "define", "object"])]
+    pub paths: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

@@ -14,6 +14,7 @@ use crate::syntax::Mode;
 use super::arguments::Program;
 use super::console::Console;
 use super::engine::Signals;
+use super::mistakes;
 use super::status::Status;
 use super::text::near;
 
@@ -56,7 +57,7 @@ pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(
         finish(console, &session, outcome)?;
     }
     if let Some(file) = &program.file {
-        let text = read_text(file).map_err(|error| console.file_error(&error))?;
+        let text = read_text(file).map_err(|error| unread_program(console, file, &error))?;
         events.extend(feed(console, &mut session, &name(file), &text)?);
     }
     for code in &program.code {
@@ -67,6 +68,16 @@ pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(
         Status::Done => Ok((session, events)),
         failed => Err(failed),
     }
+}
+
+/// Tells of a program that could not be read, and of what its name may have been meant to be.
+pub fn unread_program(console: &Console, file: &Path, error: &FileError) -> Status {
+    let told = error.diagnostic();
+    let missing = error.reason == host::Reason::Missing;
+    let tip = file.to_str().filter(|_| missing).and_then(mistakes::other_command);
+    let near = tip.or_else(|| Some(format!("did you mean `{}`?", mistakes::other_file(file).filter(|_| missing)?)));
+    console
+        .report(&Default::default(), &[near.into_iter().fold(told, |told, tip| Diagnostic { help: vec![tip], ..told })])
 }
 
 /// A warning for a definition of the command line that changes nothing: most likely its name is misspelt.

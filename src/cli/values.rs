@@ -147,7 +147,8 @@ pub fn slices(text: &str) -> Result<Slices, String> {
 
 /// Reads `640x480`.
 pub fn size(text: &str) -> Result<Size, String> {
-    let (width, height) = split(text, 'x', "WIDTHxHEIGHT, as in 640x480")?;
+    let lower = text.replace(['X', '\u{d7}'], "x");
+    let (width, height) = split(&lower, 'x', "WIDTHxHEIGHT, as in 640x480")?;
     Ok(Size { width: positive(width)?, height: positive(height)? })
 }
 

@@ -185,6 +185,10 @@ impl Repl {
                 self.comments = documented.trim_end().to_owned() + "\n";
                 return Flow::Go;
             }
+            None if !self.session.is_defined(first_word(trimmed)) && commands::without_colon(trimmed).is_some() => {
+                let meant = commands::without_colon(trimmed).unwrap_or_default();
+                self.refuse(&format!("commands begin with a colon: `{meant}`"))
+            }
             None => {
                 self.inputs += 1;
                 let name = format!("<input {}>", self.inputs);
@@ -296,6 +300,10 @@ impl Repl {
     }
 }
 
+fn first_word(text: &str) -> &str {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default()
+}
+
 /// Whether a text holds comments and nothing else.
 fn is_comment(text: &str) -> bool {
     Scanner::new(text, 0, text.len()).all(|token| token.kind == TokenKind::Comment)
@@ -307,6 +315,7 @@ fn last_value(typed: &str, shown: &str, number: Option<f64>) -> String {
     match number {
         Some(number) if number.is_finite() => format!("({})", digits(number)),
         _ if single.contains(';') => format!("({shown})"),
+        _ if single.chars().all(|c| c.is_alphanumeric() || c == '_') => single.to_owned(),
         _ => format!("({single})"),
     }
 }

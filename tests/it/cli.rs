@@ -45,6 +45,7 @@ pub(crate) fn command(folder: &Path) -> assert_cmd::Command {
     // The guard against a hang, not a measure of speed.
     command.current_dir(folder).timeout(Duration::from_secs(300));
     command.env_remove("NO_COLOR").env("XDG_STATE_HOME", folder.join(".state"));
+    command.env("XDG_CONFIG_HOME", folder.join(".config"));
     command
 }
 
@@ -356,6 +357,8 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("verbose", &["ball.geo", "-o", "a.stl"], &["ball.geo", "-o", "a.stl", "-v"]),
     ("color", &["none.geo"], &["none.geo", "--color", "always"]),
     ("diagnostics", &["none.geo"], &["none.geo", "--diagnostics", "json"]),
+    ("images", &["ball.geo"], &["ball.geo", "--images", "half"]),
+    ("no_config", MOVING, &["growing.geo", "-o", "-", "--format", "gif", "--size", "32x32", "--no-config"]),
     ("strict", &["-e", "r = 1; q = r; r = 2;"], &["-e", "r = 1; q = r; r = 2;", "-W"]),
 ];
 const PICTURE: &[&str] = &["ball.geo", "-o", "-", "--format", "png"];
@@ -368,6 +371,8 @@ const MOVING: &[&str] = &["growing.geo", "-o", "-", "--format", "gif", "--size",
 fn every_option_does_something() {
     let folder =
         folder(&[("ball.geo", BALL.as_bytes()), ("growing.geo", GROWING.as_bytes()), ("disc.geo", DISC.as_bytes())]);
+    fs::create_dir_all(folder.path().join(".config/yont")).expect("a folder");
+    fs::write(folder.path().join(".config/yont/config"), "fps 7\n").expect("room");
     for (name, without, with) in OPTIONS {
         let run = |arguments: &[&str]| {
             command(folder.path()).args(arguments).write_stdin("1\n").output().expect("yont starts")

@@ -32,5 +32,7 @@ mod repl;
 mod scenes;
 mod session;
 mod solids;
+mod slips;
 mod tidy;
+mod usage;
 mod volumes;

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::diagnostic::near::{Candidate, suggest};
+
 /// What can be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -118,7 +120,7 @@ impl Output {
         let path = PathBuf::from(text);
         let format = match path.extension().and_then(|e| e.to_str()) {
             Some(extension) => Format::by_extension(extension)
-                .ok_or_else(|| format!("`{text}`: no format has the extension `.{extension}`; {}", known()))?,
+                .ok_or_else(|| format!("`{text}`: no format has the extension `.{extension}`; {}", meant(extension)))?,
             None => return Err(format!("`{text}` has no extension to tell the format; {}", known())),
         };
         match text.split_once("{n}") {
@@ -140,6 +142,19 @@ pub fn numbered(before: &str, after: &str, n: usize, count: usize) -> PathBuf {
     PathBuf::from(format!("{before}{n:0digits$}{after}"))
 }
 
+/// The extension that was probably meant, or all there are.
+fn meant(extension: &str) -> String {
+    let lower = extension.to_ascii_lowercase();
+    let all = FORMATS.iter().map(|entry| Candidate { name: entry.1, preferred: false });
+    match (suggest(&lower, all).first(), extension) {
+        (Some(near), _) => format!("did you mean `.{near}`?"),
+        (None, "jpg" | "jpeg" | "bmp" | "webp" | "tif" | "tiff") => "a picture is a `.png`".into(),
+        (None, "mp4" | "webm" | "avi") => "an animation is a `.gif` or an `.apng`".into(),
+        (None, "step" | "stp" | "iges" | "off" | "amf" | "fbx" | "gltf") => "a mesh is a `.stl .obj .ply .glb` or `.3mf`".into(),
+        (None, _) => known(),
+    }
+}
+
 fn known() -> String {
     let all: Vec<String> = FORMATS.iter().map(|entry| format!(".{}", entry.1)).collect();
     format!("the formats are {}", all.join(" "))
@@ -154,7 +169,9 @@ mod tests {
         let file = |text: &str| Output::parse(text, None).map(|output| output.format);
         assert_eq!(file("a.stl"), Ok(Format::Stl));
         assert_eq!(file("b/c.d/a.NRRD"), Ok(Format::Nrrd));
-        assert!(file("a.jpg").is_err_and(|e| e.contains(".stl .obj .ply .glb .3mf .png .svg .gif .apng")));
+        assert!(file("a.doc").is_err_and(|e| e.contains(".stl .obj .ply .glb .3mf .png .svg .gif .apng")));
+        assert!(file("a.slt").is_err_and(|e| e.contains("did you mean `.stl`")));
+        assert!(file("a.jpg").is_err_and(|e| e.contains("`.png`")));
         assert!(file("a").is_err_and(|e| e.contains("no extension")));
         assert!(file("-").is_err_and(|e| e.contains("--format")));
         assert_eq!(file("a{n}.glb"), Ok(Format::Glb));

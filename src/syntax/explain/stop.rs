@@ -3,6 +3,7 @@
 
 use super::place::{Place, begins_statement, definition_head};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::near::foreign;
 use crate::syntax::scan::{Token, TokenKind, coordinate_digits, is_reserved};
 
 /// Where a statement ends without its `;` and the next begins.
@@ -264,7 +265,7 @@ fn between(around: &Around<'_>) -> Option<Diagnostic> {
     if complete && operand {
         let last = before?;
         let title = format!("an operator is missing between `{}` and `{found}`", last.text(text));
-        let help = separator(around, last, token);
+        let help = foreign(last.text(text)).unwrap_or_else(|| separator(around, last, token));
         return Some(error("missing-operator", title).at(span, "").see(around.place.span(last), "").help(help));
     }
     if around.is(before, "AT") {
