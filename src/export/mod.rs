@@ -10,6 +10,7 @@ pub mod png;
 pub mod quantise;
 pub mod stl;
 pub mod svg;
+pub mod terminal;
 pub mod threemf;
 
 use crate::surface::mesh::Mesh;

@@ -171,7 +171,7 @@ fn every_block_of_the_manual_runs_and_each_value_is_right() {
             .events
             .iter()
             .filter_map(|event| match event {
-                Event::Value { number, text } => Some(number.unwrap_or_else(|| panic!("line {line}: {text}"))),
+                Event::Value { number, text, .. } => Some(number.unwrap_or_else(|| panic!("line {line}: {text}"))),
                 _ => None,
             })
             .collect();

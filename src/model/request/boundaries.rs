@@ -35,7 +35,10 @@ impl Making<'_> {
         let shown = self.subject.shown_by("such a mesh", if is_glb { &["G", "C", "levels"] } else { &[] });
         shown.map_err(|told| if is_glb { told } else { told.help("a .glb holds a group; a .png shows a sheet") })?;
         let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
-        let members = self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?;
+        let members = {
+            let _phase = self.shop.interrupt.phase("compile");
+            self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?
+        };
         if members.len() > 1 {
             return self.groups(&grid, &members);
         }
