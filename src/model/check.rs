@@ -60,6 +60,25 @@ fn governed(statement: &Statement) -> Option<Diagnostic> {
     inner.or_else(|| loops(std::slice::from_ref(statement)))
 }
 
+/// Settings of the system of R-functions behind which their block ends, so that they change nothing.
+pub fn lost_settings(block: &[Statement], told: &mut Vec<Diagnostic>) {
+    for (i, statement) in block.iter().enumerate() {
+        match &statement.kind {
+            StatementKind::Define { name, .. } if names::is_system(&name.name) && i + 1 == block.len() => {
+                told.push(errors::setting_is_lost(&name.name, name.span));
+            }
+            StatementKind::If { then, otherwise, .. } => {
+                lost_settings(then, told);
+                lost_settings(otherwise.as_deref().unwrap_or_default(), told);
+            }
+            StatementKind::While { body, .. }
+            | StatementKind::For { body, .. }
+            | StatementKind::Define { body: Body::Block(body), .. } => lost_settings(body, told),
+            _ => {}
+        }
+    }
+}
+
 /// The first statement of a block that stands only at the top of a program.
 fn misplaced(block: &[Statement]) -> Option<Diagnostic> {
     block.iter().find_map(|statement| match &statement.kind {

@@ -28,8 +28,6 @@ pub struct Names {
     pub builtins: Vec<(Name, Span, usize)>,
     /// Whether a set operation stands in it, so that the system of R-functions matters.
     pub uses_system: bool,
-    /// Coordinates that are named anywhere, bit i for x(i+1).
-    pub coordinates: u16,
 }
 
 /// The names that a block of statements assigns, in the order of their first assignment; those of the system and the indices of FOR
@@ -115,8 +113,7 @@ impl Walk {
 
     fn expr(&mut self, e: &Expr) {
         match &e.kind {
-            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Pi => {}
-            ExprKind::Coordinate(c) => self.names.coordinates |= 1 << (c - 1),
+            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Pi | ExprKind::Coordinate(_) => {}
             ExprKind::Name(name) => self.read(name, e.span),
             ExprKind::Array(items) => self.exprs(items),
             ExprKind::Paren(inner) | ExprKind::Prefix { operand: inner, .. } => self.expr(inner),
@@ -168,12 +165,7 @@ impl Walk {
     fn mapping(&mut self, mapping: &Mapping) {
         match mapping {
             Mapping::Positional(all) => self.exprs(all),
-            Mapping::Named(all) => {
-                for (c, _, e) in all {
-                    self.names.coordinates |= 1 << (c - 1);
-                    self.expr(e);
-                }
-            }
+            Mapping::Named(all) => all.iter().for_each(|(_, _, e)| self.expr(e)),
         }
     }
 

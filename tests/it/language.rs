@@ -233,7 +233,7 @@ fn what_can_be_known_is_an_error_at_once() {
         ("i = 1; WHILE (i <= 8) DO s = 1;", "loop-never-steps"),
         ("i = 1; WHILE (i > 0) DO i = i + 1;", "too-many-turns"),
         ("i = 1; WHILE (x1 > 0) DO x = 1;", "loop-never-steps"),
-        ("z = x1; WHILE (z < 9) DO z = z + 1;", "unbounded-loop: this loop depends on x1"),
+        ("z = x1; i = 0; WHILE (z < 9) DO BEGIN z = z + RANDOM(1, i)/1e6; i = i + 1; END;", "unbounded-loop: this loop depends on x1"),
         ("f(n) = f(n + 1); v = f(1);", "too-many-calls"),
         ("f(n) = BEGIN s = n; END; v = f(1);", "no-result"),
         ("f(n) = BEGIN s = s + n; f = s; END; s = 1; v = f(1);", "read-before-assigned: `s`"),

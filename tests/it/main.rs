@@ -27,6 +27,7 @@ mod plots;
 mod propagation;
 mod prospero;
 mod readback;
+mod regions;
 mod repl;
 mod scenes;
 mod session;

@@ -210,6 +210,10 @@ impl<'a> Lower<'a> {
     fn circle(&mut self, path: &[(Arc<Definition>, Vec<Arc<Definition>>)], again: &Arc<Definition>) {
         let start = path.iter().position(|(d, _)| d.id == again.id).unwrap_or(0);
         let circle: Vec<&Arc<Definition>> = path[start..].iter().map(|(d, _)| d).collect();
+        // Functions that call each other end, or not, when they are called.
+        if circle.iter().all(|d| d.is_function()) {
+            return;
+        }
         let told = Arc::new(errors::circle(&circle));
         for definition in circle {
             self.state.keep(definition.id, Kept::Failed(told.clone()));

@@ -295,10 +295,13 @@ pub(super) fn unmade(error: SurfaceError) -> Diagnostic {
 }
 
 fn mesh_line(extraction: &Extraction, topology: &Topology) -> String {
-    let Counters { points, boxes, .. } = extraction.report.counters;
+    let Counters { points, boxes, regions, .. } = extraction.report.counters;
     format!(
-        "{} triangles, Euler characteristic {}, {points} points and {boxes} boxes evaluated of {} samples",
-        topology.triangles, topology.euler, extraction.report.samples
+        "{} triangles, Euler characteristic {}, {points} points and {boxes} boxes evaluated of {} samples{}",
+        topology.triangles,
+        topology.euler,
+        extraction.report.samples,
+        super::make::regions_line(regions)
     )
 }
 

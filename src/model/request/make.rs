@@ -13,6 +13,7 @@ use crate::limits::Limits;
 use crate::picture::Image;
 use crate::picture::field::sample;
 use crate::surface::sampler::Counters;
+use crate::vm::region::Counts;
 use crate::vm::{Demand, Shape};
 
 use super::output::{Format, Kind, Output, Target, numbered};
@@ -251,7 +252,13 @@ impl Making<'_> {
         let place: Vec<String> = counters.example.iter().flatten().map(|c| format!("{c:.6}")).collect();
         let title = format!("`{}` is undefined at {} of the evaluated points", self.subject.name, counters.undefined);
         let fact = format!("one of them is ({}); undefined points count as outside", place.join(", "));
-        self.written.notes.push(Diagnostic::warning("undefined-points", title).fact(fact));
+        let mut told = Diagnostic::warning("undefined-points", title).fact(fact);
+        if counters.regions.endless > 0 {
+            let (endless, limit) = (counters.regions.endless, self.shop.limits.point_turns);
+            told = told.fact(format!("{endless} times a loop took more than {limit} turns, and was given up"));
+            told = told.help("bound its turns: `WHILE (n < 100 AND ...) DO BEGIN ... n = n + 1; END`");
+        }
+        self.written.notes.push(told);
     }
 }
 
@@ -301,9 +308,24 @@ fn to_standard(
 
 fn picture_line(image: &Image, counters: &Counters) -> String {
     format!(
-        "{} x {} pixels, {} points and {} boxes evaluated",
-        image.width, image.height, counters.points, counters.boxes
+        "{} x {} pixels, {} points and {} boxes evaluated{}",
+        image.width,
+        image.height,
+        counters.points,
+        counters.boxes,
+        regions_line(counters.regions)
     )
+}
+
+/// What loops and searches took, behind the rest of a line; nothing if there was none.
+pub(super) fn regions_line(counts: Counts) -> String {
+    let mut line = String::new();
+    for (count, what) in [(counts.turns, "turns of loops"), (counts.searches, "searches for a highest value")] {
+        if count > 0 {
+            line += &format!(", {count} {what}");
+        }
+    }
+    line
 }
 
 fn write_gif(frames: &[Image], delay: f64, out: &mut dyn Write) -> io::Result<()> {
