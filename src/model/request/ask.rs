@@ -211,10 +211,18 @@ pub(super) fn alone(session: &mut Session, view: &View, timing: &Timing) -> Aske
     let mut told = Vec::new();
     let mut subject = Subject::of(object.name.clone(), object.node, Place::new());
     for axis in object.axes.iter().filter(|a| !a.is_space()) {
-        let steps = axis.steps(session.limits.frames);
-        if let Err(diagnostic) = cast(&mut subject, axis, steps, timing) {
+        let most = session.limits.frames;
+        let steps = axis.steps(most);
+        let asked = timing.frames.filter(|_| matches!(axis.role, Role::T)).unwrap_or(steps.len());
+        if asked > most {
+            told.push(too_many(&subject.name, axis, most));
+        } else if let Err(diagnostic) = cast(&mut subject, axis, steps, timing) {
             told.push(diagnostic);
         }
+    }
+    let several = subject.groups.iter().chain(&subject.colour).map(|several| several.values.len());
+    if several.fold(1, usize::saturating_mul) > session.limits.frames {
+        told.push(too_many_sections(&subject.name, session.limits.frames));
     }
     match object.levels[..] {
         [0.0] => {}
@@ -303,6 +311,18 @@ fn frames(steps: &[f64], range: Option<(f64, f64)>, asked: Option<usize>) -> Vec
         (Some(1), _) => steps[..1].to_vec(),
         _ => steps.to_vec(),
     }
+}
+
+fn too_many(name: &str, axis: &environment::Axis, most: usize) -> Diagnostic {
+    let c = axis.coordinate;
+    Diagnostic::error("too-many-frames", format!("`{name}` takes more than {most} values of {c}"))
+        .fact("each of them would be a frame, a picture or a section")
+        .help(format!("give {c} a larger {c}_delta or a shorter range, or ask for fewer --frames"))
+}
+
+fn too_many_sections(name: &str, most: usize) -> Diagnostic {
+    Diagnostic::error("too-many-frames", format!("`{name}` has more than {most} sections to show together"))
+        .help("give the coordinates of type G or C fewer values")
 }
 
 fn no_values(name: &str, axis: &environment::Axis) -> Diagnostic {
