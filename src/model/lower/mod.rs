@@ -205,6 +205,10 @@ impl<'a> Lower<'a> {
     fn circle(&mut self, path: &[(Arc<Definition>, Vec<Arc<Definition>>)], again: &Arc<Definition>) {
         let start = path.iter().position(|(d, _)| d.id == again.id).unwrap_or(0);
         let circle: Vec<&Arc<Definition>> = path[start..].iter().map(|(d, _)| d).collect();
+        // Functions may call each other: none needs the value of another before it is called, and calls have a limit.
+        if circle.iter().all(|definition| definition.is_function()) {
+            return;
+        }
         let told = Arc::new(errors::circle(&circle));
         for definition in circle {
             self.state.keep(definition.id, Kept::Failed(told.clone()));
