@@ -8,6 +8,7 @@ use clap::Parser;
 use yont::cli::arguments::{Cli, Command, Making};
 use yont::cli::values::Assignment;
 use yont::diagnostic::render::{Colour, human};
+use yont::export::Part;
 use yont::host::{Host, Memory};
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
@@ -24,7 +25,7 @@ fn folder() -> PathBuf {
 }
 
 /// The examples, by name, with their text.
-pub(crate) fn examples() -> Vec<(String, String)> {
+pub fn examples() -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = fs::read_dir(folder())
         .expect("a folder of examples")
         .map(|entry| entry.expect("readable").path())
@@ -43,6 +44,12 @@ fn teapot() -> Vec<u8> {
     fs::read(folder().join("data/teapot.nrrd")).expect("the teapot is there")
 }
 
+/// A session that has accepted the script, and where it writes.
+pub fn loaded(name: &str, text: &str) -> (Session, Arc<Memory>) {
+    let (session, _, host) = defined(name, text, &[]);
+    (session, host)
+}
+
 /// A session that has accepted the script under the definitions of a command line, what it told, and where it writes.
 fn defined(name: &str, text: &str, define: &[Assignment]) -> (Session, Vec<Event>, Arc<Memory>) {
     let host = Arc::new(Memory::with(&[("examples/data/teapot.nrrd", &teapot())]));
@@ -57,8 +64,7 @@ fn defined(name: &str, text: &str, define: &[Assignment]) -> (Session, Vec<Event
 
 fn example(name: &str) -> (Session, Arc<Memory>) {
     let (name, text) = examples().into_iter().find(|e| e.0.starts_with(name)).expect("the example");
-    let (session, _, host) = defined(&name, &text, &[]);
-    (session, host)
+    loaded(&name, &text)
 }
 
 /// What the comment at the top says under `Run:` and under `Expected:`.
@@ -206,7 +212,7 @@ fn the_nine_frames_of_the_metamorphosis_are_closed_and_share_one_program() {
         let topology = yont::surface::check::check(&mesh).unwrap_or_else(|fault| panic!("frame {n}: {fault}"));
         assert!(topology.triangles > 500, "frame {n}: {topology:?}");
         let mut bytes = Vec::new();
-        yont::export::stl::write(&mesh, &mut bytes).expect("memory");
+        yont::export::stl::write(&Part::of("gob_metamorp", &mesh), &mut bytes).expect("memory");
         assert!(bytes == files[n], "frame {n} is what the one program gives");
     }
 }

@@ -52,6 +52,7 @@ pub fn measure(session: &mut Session, view: &View) -> Asked<Measured> {
     let grid = subject.grid(view.cells, &session.limits).map_err(one)?;
     let shape = subject.shape(&session.graph, Demand::Sign, &session.limits).map_err(one)?;
     let interrupt = &session.interrupt;
+    let _phase = interrupt.phase("measure");
     let of = if subject.axes.len() == 3 {
         let measures = measure_solid(&shape, &grid, &session.limits, interrupt).map_err(|e| one(unmeasured(&e)))?;
         let triangles = measures.topology.triangles;
@@ -181,7 +182,9 @@ impl fmt::Display for Info {
     }
 }
 
-fn role(role: &Role) -> String {
+/// A geometric type as the language writes it.
+#[must_use]
+pub fn role(role: &Role) -> String {
     match role {
         Role::X => "X".into(),
         Role::Y => "Y".into(),
@@ -235,6 +238,7 @@ pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Sub
         .map(|(a, (lo, hi))| Axis { coordinate: a.coordinate, range: [lo, hi] })
         .collect();
     subject.span = session.place(&object.name);
+    subject.colouring = object.colour;
     Ok(subject)
 }
 

@@ -8,15 +8,20 @@ pub mod fields;
 mod make;
 pub mod measured;
 pub mod output;
+pub mod paint;
 mod pictures;
+mod preview;
 mod solids;
 pub mod subject;
 
+pub(super) use ask::role;
 pub use ask::{Info, info, measure, sample, subject, write};
 pub use fields::Sampled;
 pub use make::Written;
 pub use measured::Measured;
+pub use preview::{headline, preview};
 pub use output::{FORMATS, Format, Kind, Output, Target};
+pub use paint::{colours_at, colours_of};
 pub use subject::{Sequence, Subject};
 
 use crate::field::Coordinate;

@@ -4,6 +4,7 @@
 use crate::diagnostic::{Category, Diagnostic};
 use crate::field::{Coordinate, Graph, NodeId};
 use crate::limits::Limits;
+use crate::model::environment::Colour;
 use crate::picture::axes::number;
 use crate::source::Span;
 use crate::surface::grid::{Grid, GridError, MOST_CELLS};
@@ -80,6 +81,8 @@ pub struct Subject {
     pub colour: Option<Sequence>,
     /// Levels whose boundaries are shown together, ascending. Empty: the one at 0.
     pub levels: Vec<Level>,
+    /// The colour that the program gives it.
+    pub colouring: Option<Colour>,
 }
 
 impl Subject {
@@ -99,6 +102,7 @@ impl Subject {
             groups,
             colour: None,
             levels,
+            colouring: None,
         }
     }
 
@@ -211,7 +215,13 @@ impl Subject {
         self.levels.iter().map(member).collect()
     }
 
-    fn shape_of(&self, node: NodeId, graph: &Graph, demand: Demand, limits: &Limits) -> Result<Shape, Diagnostic> {
+    pub(super) fn shape_of(
+        &self,
+        node: NodeId,
+        graph: &Graph,
+        demand: Demand,
+        limits: &Limits,
+    ) -> Result<Shape, Diagnostic> {
         let inputs: Vec<Coordinate> =
             self.axes.iter().map(|a| a.coordinate).chain(self.fixed.iter().map(|f| f.0)).collect();
         let program = Program::compile(graph, node, &inputs, demand, limits).map_err(|e| self.not_compiled(e))?;
