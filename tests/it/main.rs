@@ -28,6 +28,7 @@ mod propagation;
 mod prospero;
 mod readback;
 mod regions;
+mod reference;
 mod repl;
 mod scenes;
 mod session;

@@ -23,6 +23,7 @@ use super::together::subject;
 use super::{Options, Timing, View};
 use crate::model::environment::{self, Object, Role};
 use crate::model::session::Session;
+use crate::model::value::number;
 
 /// An answer, or the messages that say why there is none.
 type Asked<T> = Result<T, Vec<Diagnostic>>;
@@ -196,8 +197,8 @@ pub fn role(role: &Role) -> String {
         Role::V => "V".into(),
         Role::W => "W".into(),
         Role::C => "C".into(),
-        Role::Constant(value) => format!("CONSTANT = {value}"),
-        Role::Group(values) => format!("G = {values:?}"),
+        Role::Constant(value) => format!("CONSTANT = {}", number(*value)),
+        Role::Group(values) => format!("G = [{}]", values.iter().map(|v| number(*v)).collect::<Vec<_>>().join(", ")),
     }
 }
 

@@ -214,8 +214,7 @@ impl Making<'_> {
         let name = &self.subject.name;
         let title = format!("{what} needs {axes} axes; `{name}` has {} here: {}", have.len(), have.join(", "));
         let help = if have.len() < axes {
-            "give the missing coordinate a range (`x3min = -1; x3max = 1;` or --bounds x3=-1:1), or ask for a .png"
-                .into()
+            "make a further coordinate an axis (`x3 : Z; x3min = -1; x3max = 1;`), or ask for a .png".into()
         } else {
             let last = &have[have.len() - 1];
             format!("cut it into slices, --slices {last}=LO:HI:N, or take one section: --at {last}=0")
