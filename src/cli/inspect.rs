@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use serde_json::{Map, Value, json};
 
 use crate::host;
-use crate::model::Session;
 use crate::model::request::{self, Info};
+use crate::model::{Session, settings};
 
 use super::arguments::{self, Making};
 use super::console::Console;
@@ -80,7 +80,7 @@ pub fn measure(console: &Console, signals: &Signals, options: &arguments::Measur
 pub fn measure_one(console: &Console, session: &mut Session, making: &Making, json: bool) -> Result<Status, Status> {
     let measured = {
         let _progress = console.progress(session.interrupt(), "measuring");
-        request::measure(session, &view(making))
+        settings::defaults(session).and_then(|defaults| request::measure(session, &view(making, &defaults.view)))
     };
     match measured {
         Ok(measured) if json => console.print(&measured.json().to_string()).map(|()| Status::Done),

@@ -84,7 +84,9 @@ impl<'a> Expansion<'a> {
                 debug_assert_eq!(open.len(), before);
                 open.pop();
             }
-            if self.result.len() > self.limit.saturating_add(Coordinate::MOST) || open.len() > self.limit.saturating_mul(4) {
+            if self.result.len() > self.limit.saturating_add(Coordinate::MOST)
+                || open.len() > self.limit.saturating_mul(4)
+            {
                 return Err(TooLarge { limit: self.limit });
             }
         }

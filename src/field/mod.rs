@@ -10,4 +10,4 @@ pub mod region;
 pub use derivative::derivative;
 pub use facts::operations;
 pub use graph::{Coordinate, Coordinates, Graph, Node, NodeId, SharedLeaf};
-pub use region::{Form, Region, SharedRegion};
+pub use region::{Bound, Form, Guard, Region, SharedRegion};

@@ -8,13 +8,15 @@ use std::sync::Arc;
 use super::derivative::derivative;
 use super::expand::{TooLarge, expand, reachable_all};
 use super::graph::{Coordinate, Coordinates, Graph, Node, NodeId};
-use crate::number::{Binary, Ternary, Unary};
+use crate::number::{Binary, Interval, Real, Ternary, Unary};
 
 /// Regions within regions, at most so many levels.
-pub const DEPTH: u8 = 12;
+pub const DEPTH: u8 = 4;
 
-/// Parameters of a region at most. Its derivative has twice as many, and the derivative of that twice as many again.
-const PARAMETERS: usize = Coordinate::MOST / 4;
+/// Parameters of a region at most. Its derivative has twice as many.
+const PARAMETERS: usize = Coordinate::MOST / 2;
+/// Parameters up to which what does not change inside is computed outside; else only the coordinates are read from there.
+const COMPUTED_OUTSIDE: usize = Coordinate::MOST / 4;
 
 /// A closed function of its parameters, that is of the coordinates x1, x2, ... of its own graph.
 #[derive(Debug)]
@@ -36,6 +38,8 @@ pub enum Form {
         condition: NodeId,
         /// The next value of each variable.
         next: Arc<[NodeId]>,
+        /// The parts of the condition, which all must hold.
+        guards: Arc<[Guard]>,
     },
     /// The highest value of `body` where the first parameter goes from the first argument to the second; the parameters from the second
     /// on are the arguments from the third on. Output 0 is that value, output 1 where it is. Undefined values count as lowest; from
@@ -58,12 +62,73 @@ pub enum Form {
     },
 }
 
+/// A part of the condition of a loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Guard {
+    /// Whether it holds.
+    pub holds: NodeId,
+    /// If it compares a variable with a number: what is known where it fails.
+    pub bound: Option<Bound>,
+}
+
+/// What is known of a variable: it lies between two numbers, or is undefined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Bound {
+    /// Its place among the variables.
+    pub variable: usize,
+    /// The least number.
+    pub lo: Real,
+    /// The largest number.
+    pub hi: Real,
+}
+
+impl Bound {
+    /// The variable and its range.
+    #[must_use]
+    pub fn within(self) -> (usize, Interval) {
+        (self.variable, Interval::new(self.lo.get(), self.hi.get()))
+    }
+}
+
+/// The parts of a condition that must all hold, the first `variables` parameters being what may be bounded.
+fn guards(graph: &Graph, condition: NodeId, variables: usize) -> Arc<[Guard]> {
+    let mut open = vec![condition];
+    let mut found = Vec::new();
+    while let Some(holds) = open.pop() {
+        if let Node::Binary(Binary::And, a, b) = graph.node(holds) {
+            open.extend([*b, *a]);
+        } else {
+            found.push(Guard { holds, bound: fails(graph, holds, variables) });
+        }
+    }
+    found.into()
+}
+
+/// What is known where a comparison of a variable with a number fails.
+fn fails(graph: &Graph, holds: NodeId, variables: usize) -> Option<Bound> {
+    let Node::Binary(op @ (Binary::Less | Binary::LessEqual), a, b) = graph.node(holds) else { return None };
+    let variable = |id: NodeId| match graph.node(id) {
+        Node::Coordinate(c) => Some(usize::from(c.0) - 1).filter(|i| *i < variables),
+        _ => None,
+    };
+    let strict = *op == Binary::LessEqual;
+    let bound = |variable, lo, hi| Some(Bound { variable, lo: Real::new(lo), hi: Real::new(hi) });
+    match (variable(*a), graph.number(*b), graph.number(*a), variable(*b)) {
+        (Some(i), Some(least), ..) => bound(i, if strict { least.next_up() } else { least }, f64::INFINITY),
+        (_, _, Some(most), Some(i)) => bound(i, f64::NEG_INFINITY, if strict { most.next_down() } else { most }),
+        _ => None,
+    }
+}
+
 impl Form {
     /// The nodes whose values the region asks for.
     #[must_use]
     pub fn roots(&self) -> Vec<NodeId> {
         match self {
-            Self::Loop { condition, next } => std::iter::once(*condition).chain(next.iter().copied()).collect(),
+            Self::Loop { condition, next, guards } => {
+                let guards = guards.iter().map(|guard| guard.holds);
+                std::iter::once(*condition).chain(next.iter().copied()).chain(guards).collect()
+            }
             Self::Section { body, slope, .. } => vec![*body, *slope],
             Self::Ball { body, .. } => vec![*body],
         }
@@ -115,8 +180,7 @@ pub struct SharedRegion(pub Arc<Region>);
 impl PartialEq for SharedRegion {
     fn eq(&self, other: &Self) -> bool {
         let (a, b) = (&*self.0, &*other.0);
-        Arc::ptr_eq(&self.0, &other.0)
-            || (a.hash == b.hash && a.form == b.form && a.graph.nodes() == b.graph.nodes())
+        Arc::ptr_eq(&self.0, &other.0) || (a.hash == b.hash && a.form == b.form && a.graph.nodes() == b.graph.nodes())
     }
 }
 impl Eq for SharedRegion {}
@@ -154,13 +218,34 @@ struct Cut {
 /// Cuts roots out of a graph as functions of the variables: the variables become the first parameters. What does not depend on them is
 /// computed outside and becomes a parameter as a whole.
 fn cut(graph: &mut Graph, roots: &[NodeId], variables: &[Coordinate], limit: usize) -> Result<Cut, Refused> {
+    match cut_by(graph, roots, variables, limit, true)? {
+        cut if variables.len() + cut.captured.len() <= COMPUTED_OUTSIDE => Ok(cut),
+        _ => {
+            let cut = cut_by(graph, roots, variables, limit, false)?;
+            if variables.len() + cut.captured.len() > PARAMETERS { Err(Refused::TooMany) } else { Ok(cut) }
+        }
+    }
+}
+
+/// The same; what does not depend on the variables is computed outside only if so wished.
+fn cut_by(
+    graph: &mut Graph,
+    roots: &[NodeId],
+    variables: &[Coordinate],
+    limit: usize,
+    computed_outside: bool,
+) -> Result<Cut, Refused> {
     let expanded = expand(graph, roots, limit)?;
     let (source, roots) = match &expanded {
         Some((source, roots)) => (source, roots.clone()),
         None => (&*graph, roots.to_vec()),
     };
     let moving = variables.iter().fold(Coordinates::default(), |all, c| all.union(Coordinates::one(*c)));
-    let depends = |id: NodeId| source.coordinates(id).meets(moving);
+    let depends = |id: NodeId| match source.node(id) {
+        Node::Coordinate(c) => moving.contains(*c),
+        _ if computed_outside => source.coordinates(id).meets(moving),
+        _ => !source.coordinates(id).is_empty(),
+    };
     let reached = reachable_all(source, &roots);
     if reached.iter().filter(|r| **r).count() > limit {
         return Err(Refused::TooLarge(limit));
@@ -173,7 +258,8 @@ fn cut(graph: &mut Graph, roots: &[NodeId], variables: &[Coordinate], limit: usi
     all.clone().filter(|id| depends(*id)).for_each(|id| source.node(id).for_each_operand(&mut note));
     let captured: Vec<NodeId> = all.clone().filter(|id| outside[id.index()]).collect();
     if variables.len() + captured.len() > PARAMETERS {
-        return Err(Refused::TooMany);
+        // Too many to be parameters: the caller sees it by their number.
+        return Ok(Cut { graph: Graph::new(), roots: Vec::new(), captured });
     }
     let mut inner = Graph::new();
     let parameters: Vec<NodeId> =
@@ -236,7 +322,8 @@ impl Graph {
         let roots: Vec<NodeId> = std::iter::once(condition).chain(variables.iter().map(|v| v.2)).collect();
         let names: Vec<Coordinate> = variables.iter().map(|v| v.0).collect();
         let cut = cut(self, &roots, &names, limit)?;
-        let form = Form::Loop { condition: cut.roots[0], next: cut.roots[1..].into() };
+        let guards = guards(&cut.graph, cut.roots[0], variables.len());
+        let form = Form::Loop { condition: cut.roots[0], next: cut.roots[1..].into(), guards };
         let region = shallow(Region::new(cut.graph, form))?;
         let arguments = variables.iter().map(|v| v.1).chain(cut.captured).collect();
         Ok(self.outputs_of(&region, &arguments))
@@ -267,13 +354,7 @@ impl Graph {
     ///
     /// # Errors
     /// [`Refused`] if it is too large, too wide or too deep.
-    pub fn ball(
-        &mut self,
-        body: NodeId,
-        over: &[Coordinate],
-        radius: NodeId,
-        limit: usize,
-    ) -> Result<NodeId, Refused> {
+    pub fn ball(&mut self, body: NodeId, over: &[Coordinate], radius: NodeId, limit: usize) -> Result<NodeId, Refused> {
         let cut = cut(self, &[body], over, limit)?;
         let form = Form::Ball { body: cut.roots[0], dimension: over.len() };
         let region = shallow(Region::new(cut.graph, form))?;
@@ -291,6 +372,10 @@ fn shallow(region: SharedRegion) -> Result<SharedRegion, Refused> {
 ///
 /// A maximum leaves an undefined operand aside and so may jump where that one begins: its operands must be defined everywhere.
 fn is_continuous(graph: &Graph, root: NodeId) -> bool {
+    is_continuous_in(graph, root, Coordinates::one(Coordinate(1)))
+}
+
+fn is_continuous_in(graph: &Graph, root: NodeId, by: Coordinates) -> bool {
     use Binary::{Add, Div, Hypot, Max, Min, Mul, Pow, Sub};
     let reached = reachable_all(graph, &[root]);
     let mut total = vec![false; reached.len()];
@@ -304,9 +389,16 @@ fn is_continuous(graph: &Graph, root: NodeId) -> bool {
             Node::Binary(op, ..) => matches!(op, Add | Sub | Mul | Div | Min | Pow | Hypot),
             Node::Ternary(op, _) => *op != Ternary::Select,
             Node::Constant(_) | Node::Coordinate(_) => true,
+            // The highest value of what is continuous in all its parameters moves continuously with them.
+            Node::Region(region, 0, _) => match *region.0.form() {
+                Form::Section { body, .. } | Form::Ball { body, .. } => {
+                    is_continuous_in(region.0.graph(), body, Coordinates(u128::MAX))
+                }
+                Form::Loop { .. } => false,
+            },
             Node::Leaf(..) | Node::Region(..) | Node::Map(..) => false,
         };
-        if !continuous && graph.coordinates(id).contains(Coordinate(1)) {
+        if !continuous && graph.coordinates(id).meets(by) {
             return false;
         }
         total[id.index()] = operands && is_total(node);

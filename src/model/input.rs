@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::field::Coordinate;
 use crate::source::{SourceId, Span};
 use crate::syntax::tree::{Expr, ExprKind, Ident, Name, Statement, StatementKind};
 use crate::syntax::{self, Mode};
@@ -102,7 +103,9 @@ impl<'s> Input<'s> {
         let fault = match fault {
             None => {
                 self.check();
-                self.lower_all(&fresh).err()
+                let stopped = self.lower_all(&fresh).err();
+                self.check_extents();
+                stopped
             }
             fault => fault,
         };
@@ -310,11 +313,16 @@ impl<'s> Input<'s> {
         {
             self.tell(errors::nearly_setting(&name.name, &setting, name.span));
         }
+        if !matches!(&statement.kind, StatementKind::Define { name, .. } if names::is_system(&name.name)) {
+            let mut lost = Vec::new();
+            check::lost_settings(std::slice::from_ref(&statement), &mut lost);
+            lost.into_iter().for_each(|told| self.tell(told));
+        }
         let Some(definition) = self.definition(statement, &said) else { return };
         let definition = Arc::new(definition);
         self.note_readers(&definition);
         let state = &mut self.session.state;
-        state.register(&definition, said.coordinates);
+        state.register(&definition);
         match &definition.statement.kind {
             StatementKind::Define { name, .. } if names::is_system(&name.name) => {
                 state.push(Entry::Definition(definition.clone()));
@@ -414,7 +422,6 @@ impl<'s> Input<'s> {
             system,
             uses_system: said.uses_system,
         });
-        self.session.state.register_coordinates(said.coordinates);
         self.with_lower(|lower| lower.ensure(&definition))?;
         let kept = self.session.state.kept(definition.id).cloned();
         self.session.state.forget(definition.id);
@@ -488,6 +495,25 @@ impl<'s> Input<'s> {
             }
         }
         self.fresh = fresh;
+    }
+
+    /// Warns of a modelling space that ends before it begins, if this input said where it does.
+    fn check_extents(&mut self) {
+        for c in (1..=16).map(Coordinate) {
+            let names = [format!("{c}min"), format!("{c}max")];
+            let value = |name: &String| match self.session.value(name) {
+                Some(Ok(Value::Scalar(Scalar::Number(value)))) => Some(value),
+                _ => None,
+            };
+            let said = self.fresh.iter().any(|(d, _)| d.outputs.iter().any(|n| names.iter().any(|name| **name == **n)));
+            if let (true, [Some(lo), Some(hi)]) = (said, names.each_ref().map(value))
+                && lo >= hi
+            {
+                let [lo_at, hi_at] = names.each_ref().map(|name| self.session.place(name));
+                let told = errors::no_extent(c, (lo, lo_at), (hi, hi_at));
+                self.tell(Diagnostic { severity: Severity::Warning, ..told });
+            }
+        }
     }
 
     /// Lowers what is new and what depends on it.

@@ -4,7 +4,7 @@ use rustc_hash::FxHashSet;
 
 use crate::builtins;
 use crate::source::Span;
-use crate::syntax::tree::{Body, ChainOp, Expr, ExprKind, FoldOp, Mapping, Name, Statement, StatementKind};
+use crate::syntax::tree::{Body, ChainOp, Expr, ExprKind, FoldOp, Ident, Mapping, Name, Statement, StatementKind};
 
 /// The name that holds the parameter of the R-functions.
 pub const R_ALPHA: &str = "r_alpha";
@@ -28,8 +28,6 @@ pub struct Names {
     pub builtins: Vec<(Name, Span, usize)>,
     /// Whether a set operation stands in it, so that the system of R-functions matters.
     pub uses_system: bool,
-    /// Coordinates that are named anywhere, bit i for x(i+1).
-    pub coordinates: u16,
 }
 
 /// The names that a block of statements assigns, in the order of their first assignment; those of the system and the indices of FOR
@@ -115,8 +113,7 @@ impl Walk {
 
     fn expr(&mut self, e: &Expr) {
         match &e.kind {
-            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Pi => {}
-            ExprKind::Coordinate(c) => self.names.coordinates |= 1 << (c - 1),
+            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Pi | ExprKind::Coordinate(_) => {}
             ExprKind::Name(name) => self.read(name, e.span),
             ExprKind::Array(items) => self.exprs(items),
             ExprKind::Paren(inner) | ExprKind::Prefix { operand: inner, .. } => self.expr(inner),
@@ -138,7 +135,7 @@ impl Walk {
                 self.exprs(indices);
             }
             ExprKind::Call { callee, arguments } => {
-                self.call(&callee.name, callee.span, arguments.len());
+                self.call(callee, e.span, arguments.len());
                 self.exprs(arguments);
             }
             ExprKind::Fold { op, index, from, to, body } => {
@@ -168,26 +165,22 @@ impl Walk {
     fn mapping(&mut self, mapping: &Mapping) {
         match mapping {
             Mapping::Positional(all) => self.exprs(all),
-            Mapping::Named(all) => {
-                for (c, _, e) in all {
-                    self.names.coordinates |= 1 << (c - 1);
-                    self.expr(e);
-                }
-            }
+            Mapping::Named(all) => all.iter().for_each(|(_, _, e)| self.expr(e)),
         }
     }
 
-    fn call(&mut self, name: &Name, span: Span, arguments: usize) {
+    fn call(&mut self, callee: &Ident, whole: Span, arguments: usize) {
+        let name = &callee.name;
         if builtins::find(name).is_some() {
-            self.names.builtins.push((name.clone(), span, arguments));
+            self.names.builtins.push((name.clone(), whole, arguments));
             let upper = name.to_ascii_uppercase();
             self.names.uses_system |= upper == "UNION" || upper == "INTERSECTION";
             return;
         }
         if !self.bound.iter().any(|b| b == name) {
-            self.names.calls.push((name.clone(), span, arguments));
+            self.names.calls.push((name.clone(), whole, arguments));
         }
-        self.read(name, span);
+        self.read(name, callee.span);
     }
 
     fn block(&mut self, block: &[Statement]) {

@@ -109,12 +109,8 @@ impl Session {
         if let Some((lo, hi)) = range
             && lo >= hi
         {
-            let told =
-                Diagnostic::error("no-extent", format!("the modelling space has no extent along {c}: {lo} to {hi}"));
-            let place = self.state.get(&format!("{c}max")).map(|d| d.place());
-            return Err(vec![
-                place.into_iter().fold(told, |t, s| t.at(s, "")).help(format!("{c}min must be below {c}max")),
-            ]);
+            let place = |end: &str| self.state.get(&format!("{c}{end}")).map(|d| d.place());
+            return Err(vec![errors::no_extent(c, (lo, place("min")), (hi, place("max")))]);
         }
         let declared = self.declared_role(&c.to_string())?;
         let is_declared = declared.is_some();

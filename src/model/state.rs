@@ -81,7 +81,6 @@ pub struct State {
     readers: FxHashMap<Name, Readers>,
     dependents: FxHashMap<DefinitionId, Readers>,
     journal: Vec<Change>,
-    coordinates: u16,
     /// Definitions whose values are to be found again, oldest first.
     stale: Vec<Arc<Definition>>,
     /// Kept results after the last sweep.
@@ -182,25 +181,13 @@ impl State {
     }
 
     /// Makes a definition known to what it reads and what it is linked to.
-    pub fn register(&mut self, definition: &Arc<Definition>, coordinates: u16) {
-        self.register_coordinates(coordinates);
+    pub fn register(&mut self, definition: &Arc<Definition>) {
         for (name, _) in &definition.reads {
             self.readers.entry(name.clone()).or_default().push(definition);
         }
         for link in definition.links() {
             self.dependents.entry(link.id).or_default().push(definition);
         }
-    }
-
-    /// Notes coordinates that a text names, bit i for x(i+1).
-    pub fn register_coordinates(&mut self, coordinates: u16) {
-        self.coordinates |= coordinates;
-    }
-
-    /// The coordinates that any text of the session has named.
-    #[must_use]
-    pub fn coordinates_named(&self) -> u16 {
-        self.coordinates
     }
 
     /// Marks a definition as one whose value is to be found.
@@ -309,6 +296,17 @@ impl State {
     /// The definitions that read a name or continue one of its definitions.
     pub fn readers(&self, name: &str) -> impl Iterator<Item = Arc<Definition>> {
         self.readers.get(name).into_iter().flat_map(Readers::iter)
+    }
+
+    /// Whether a definition or a type that matters reads a name.
+    #[must_use]
+    pub fn is_read(&self, name: &str) -> bool {
+        let mut readers = self.readers(name).peekable();
+        // Most names of settings are read by nothing, so that what matters need not be found.
+        readers.peek().is_some() && {
+            let live = self.live();
+            self.readers(name).any(|reader| live.contains(&reader.id))
+        }
     }
 
     /// The definitions that are linked to this one: its extensions, and those whose operators use the system that it sets.

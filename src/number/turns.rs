@@ -14,6 +14,11 @@ pub struct Turns {
     undecided: usize,
 }
 
+/// Whether a condition is certainly true: not 0 and defined.
+fn certain(condition: Interval) -> bool {
+    (condition.lo > 0.0 || condition.hi < 0.0) && !condition.undefined && !condition.is_empty()
+}
+
 /// Nothing yet.
 const NOTHING: Interval = Interval { lo: f64::INFINITY, hi: f64::NEG_INFINITY, undefined: false };
 
@@ -25,15 +30,31 @@ impl Turns {
         self.undecided = 0;
     }
 
-    /// Whether some points may take another turn, where the condition and the variables have these ranges.
-    pub fn goes_on(&mut self, condition: Interval, variable: impl Fn(usize) -> Interval) -> bool {
-        let certain = (condition.lo > 0.0 || condition.hi < 0.0) && !condition.undefined && !condition.is_empty();
-        if certain {
+    /// Whether some points may take another turn, where the condition and the variables have these ranges. The parts of the condition
+    /// come with what is known of a variable where they fail: its place, and the bounds between which it lies then.
+    pub fn goes_on(
+        &mut self,
+        condition: Interval,
+        parts: impl Iterator<Item = (Interval, Option<(usize, Interval)>)>,
+        variable: impl Fn(usize) -> Interval,
+    ) -> bool {
+        if certain(condition) {
             self.undecided += usize::from(self.undecided > 0);
             return true;
         }
-        for (i, result) in self.result.iter_mut().enumerate() {
-            *result = result.hull(variable(i));
+        // If a single part is in question, what leaves does so since that one fails.
+        let mut open = parts.filter(|(holds, _)| !certain(*holds));
+        let known = match (open.next(), open.next()) {
+            (Some((_, known)), None) => known,
+            _ => None,
+        };
+        let left = |i: usize| match known {
+            Some((bounded, within)) if bounded == i => variable(i).clip(within.lo, within.hi),
+            _ => variable(i),
+        };
+        let none = known.is_some_and(|(i, _)| left(i).is_empty() && !left(i).undefined);
+        for (i, result) in self.result.iter_mut().enumerate().filter(|_| !none) {
+            *result = result.hull(left(i));
         }
         self.undecided += 1;
         !(condition.is_empty() || (condition.lo == 0.0 && condition.hi == 0.0))

@@ -4,6 +4,7 @@ use crate::interrupt::Interrupt;
 use crate::number::Interval;
 use crate::vm::block::Points;
 use crate::vm::gradient::Gradients;
+use crate::vm::region::Counts;
 use crate::vm::{Program, Shape};
 
 /// What a computation cost, and where the function was undefined.
@@ -17,6 +18,8 @@ pub struct Counters {
     pub undefined: u64,
     /// One of those: as many coordinates as the space has.
     pub example: Option<Vec<f64>>,
+    /// What loops that run at each point and searches for highest values took.
+    pub regions: Counts,
 }
 
 impl Counters {
@@ -25,6 +28,7 @@ impl Counters {
         self.points += other.points;
         self.boxes += other.boxes;
         self.undefined += other.undefined;
+        self.regions = self.regions.plus(other.regions);
         if self.example.is_none() {
             self.example = other.example;
         }
@@ -55,7 +59,11 @@ pub struct Sampler {
 
 /// Points handed to a program at once: so few operations in all that a request to stop is heard within some hundredths of a second.
 fn at_once(program: &Program) -> usize {
-    if program.len() > 50_000 { 128 } else { 1024 }
+    match program {
+        slow if slow.has_searches() => 16,
+        long if long.has_regions() || long.len() > 50_000 => 128,
+        _ => 1024,
+    }
 }
 
 impl Sampler {
@@ -122,7 +130,8 @@ impl Sampler {
 
     /// What was counted since the last call.
     pub fn take_counters(&mut self) -> Counters {
-        std::mem::take(&mut self.counters)
+        let regions = self.points.take_counts().plus(self.gradients.take_counts());
+        Counters { regions, ..std::mem::take(&mut self.counters) }
     }
 }
 

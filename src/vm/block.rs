@@ -3,7 +3,7 @@
 
 use super::kernels::{Kind, Store, doubles, singles};
 use super::program::Program;
-use super::region::{Pointwise, RegionProgram, RegionStore};
+use super::region::{Counts, Pointwise, RegionProgram, RegionStore};
 use crate::number::float::Float;
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
@@ -190,6 +190,11 @@ impl<T: Scalar> Points<T> {
     #[must_use]
     pub fn new() -> Self {
         Self { store: Store::new() }
+    }
+
+    /// What loops and searches have cost since the last call.
+    pub fn take_counts(&mut self) -> Counts {
+        self.store.take_counts()
     }
 
     /// The values at `out.len()` points: `points` has one slice of that length per input of the program.

@@ -216,13 +216,7 @@ struct Emitter<'a> {
 }
 
 impl<'a> Emitter<'a> {
-    fn new(
-        graph: &'a Graph,
-        roots: &[NodeId],
-        inputs: &'a [Coordinate],
-        demand: Demand,
-        limits: &'a Limits,
-    ) -> Self {
+    fn new(graph: &'a Graph, roots: &[NodeId], inputs: &'a [Coordinate], demand: Demand, limits: &'a Limits) -> Self {
         let reached = reachable_all(graph, roots);
         let wants = wants(graph, roots, &reached, demand);
         Self {

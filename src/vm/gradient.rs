@@ -3,7 +3,7 @@
 
 use super::kernels::{Kind, Store, duals};
 use super::program::Program;
-use super::region::{Pointwise, RegionProgram, RegionStore};
+use super::region::{Counts, Pointwise, RegionProgram, RegionStore};
 use crate::number::dual::Dual;
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
@@ -99,6 +99,11 @@ impl Gradients {
     #[must_use]
     pub fn new() -> Self {
         Self { store: Store::new() }
+    }
+
+    /// What loops and searches have cost since the last call.
+    pub fn take_counts(&mut self) -> Counts {
+        self.store.take_counts()
     }
 
     /// The values at `value.len()` points and, into `slopes[k]`, their derivatives by the input `by[k]`; any number of those, three

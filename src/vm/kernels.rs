@@ -8,7 +8,7 @@
 use multiversion::multiversion;
 
 use super::program::{Op, Program, Value};
-use super::region::{RegionProgram, RegionStore};
+use super::region::{Counts, RegionProgram, RegionStore};
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
 /// A kind of number to evaluate with, and how a block of them lies in memory.
@@ -76,6 +76,11 @@ impl<K: Kind> Store<K> {
         while self.regions.len() < program.regions.len() {
             self.regions.push(RegionStore::new());
         }
+    }
+
+    /// What loops and searches have cost since the last call.
+    pub(crate) fn take_counts(&mut self) -> Counts {
+        self.regions.iter_mut().fold(Counts::default(), |all, region| all.plus(region.take_counts()))
     }
 
     /// The block of an input.

@@ -69,10 +69,7 @@ impl Op {
             Self::Constant(_) => {}
             Self::Unary(_, a) | Self::WithRight(_, a, _) | Self::WithLeft(_, _, a) => f(a),
             Self::Region(_, a) | Self::Output(_, _, a) => f(a),
-            Self::Binary(_, a, b)
-            | Self::Join(_, a, b, _)
-            | Self::Extreme(_, _, a, b)
-            | Self::Give(_, _, a, b) => {
+            Self::Binary(_, a, b) | Self::Join(_, a, b, _) | Self::Extreme(_, _, a, b) | Self::Give(_, _, a, b) => {
                 f(a);
                 f(b);
             }
@@ -135,11 +132,10 @@ impl Program {
         !self.regions.is_empty()
     }
 
-    /// What its loops and searches have cost until now, this program and those specialised from it taken together.
+    /// Whether an operation searches for a highest value, so that a point takes longer still.
     #[must_use]
-    pub fn region_counts(&self) -> super::region::Counts {
-        let counts = self.regions.iter().map(|region| region.counts());
-        counts.fold(super::region::Counts::default(), super::region::Counts::plus)
+    pub fn has_searches(&self) -> bool {
+        self.regions.iter().any(|region| region.searches())
     }
 
     /// Number of operations.

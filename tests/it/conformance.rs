@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use yont::field::expand::{expand, reachable};
-use yont::field::{Coordinate, Graph, NodeId, SharedLeaf};
+use yont::field::{Coordinate, Graph, NodeId, Region, SharedLeaf};
 use yont::limits::Limits;
 use yont::number::{Algebra, Binary, Dual, Duals, Interval, Intervals, Leaf, Reals, Ternary, Unary};
 use yont::vm::{Boxes, Demand, Gradients, Points, Program, reference};
@@ -148,7 +148,7 @@ fn compile(graph: &Graph, root: NodeId, demand: Demand) -> Program {
     Program::compile(graph, root, &INPUTS, demand, &Limits::default()).expect("small and of three coordinates")
 }
 
-fn same(a: f64, b: f64) -> bool {
+pub fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }
 
@@ -181,8 +181,8 @@ fn points_in(random: &mut Random, over: [Interval; 3], count: usize) -> [Vec<f64
 
 /// The first operation whose interval does not hold its value, for the message of a failed test.
 fn blame(graph: &Graph, root: NodeId, at: [f64; 3], over: [Interval; 3]) -> String {
-    let expanded = expand(graph, root, 10_000).expect("small");
-    let (graph, root) = expanded.as_ref().map_or((graph, root), |(g, r)| (g, *r));
+    let expanded = expand(graph, &[root], 10_000).expect("small");
+    let (graph, root) = expanded.as_ref().map_or((graph, root), |(g, r)| (g, r[0]));
     let range =
         |node: NodeId| reference::eval(&mut Intervals, graph, node, &INPUTS.map(|c| (c, over[usize::from(c.0) - 1])));
     let reached = reachable(graph, root);
@@ -273,7 +273,7 @@ fn intervals_hold_the_values_and_specialised_programs_give_them() {
 }
 
 /// The algebra of single precision, for the walk.
-struct Singles;
+pub struct Singles;
 
 impl Algebra for Singles {
     type Number = f32;
@@ -295,6 +295,9 @@ impl reference::Meaning for Singles {
     fn leaf(&mut self, leaf: &dyn Leaf, arguments: &[f32]) -> f32 {
         leaf.value(&arguments.iter().map(|a| f64::from(*a)).collect::<Vec<_>>()) as f32
     }
+    fn region(&mut self, region: &Region, arguments: &[f32]) -> Vec<f32> {
+        reference::region::at_a_point(self, region, arguments, |v| f64::from(*v), |v, _, _| v as f32)
+    }
 }
 
 /// More points than a block holds, and not a whole number of blocks.
@@ -308,7 +311,7 @@ fn blocks_of_both_precisions_and_gradients_equal_the_walk() {
         let mut graph = Graph::new();
         let root = expression(&mut random, &mut graph, 25);
         let program = compile(&graph, root, Demand::Value);
-        let expanded = expand(&graph, root, 10_000).expect("small");
+        let expanded = expand(&graph, &[root], 10_000).expect("small");
         let points: [Vec<f64>; 3] =
             std::array::from_fn(|_| (0..MANY).map(|_| f64::from(random.between(-3.0, 3.0) as f32)).collect());
         let singles = points.each_ref().map(|p| p.iter().map(|x| *x as f32).collect::<Vec<f32>>());
@@ -322,7 +325,7 @@ fn blocks_of_both_precisions_and_gradients_equal_the_walk() {
             let at = [points[0][k], points[1][k], points[2][k]];
             assert!(same(value[k], walk(&graph, root, at)), "case {case}");
             // Numbers that a map brings together are folded in double precision, so the walk takes the expanded graph.
-            let (plain, plain_root) = expanded.as_ref().map_or((&graph, root), |(g, r)| (g, *r));
+            let (plain, plain_root) = expanded.as_ref().map_or((&graph, root), |(g, r)| (g, r[0]));
             let expected =
                 reference::eval(&mut Singles, plain, plain_root, &[0, 1, 2].map(|i| (INPUTS[i], at[i] as f32)));
             assert!(same(f64::from(rough[k]), f64::from(expected)), "case {case}: {} instead of {expected}", rough[k]);

@@ -27,6 +27,8 @@ mod plots;
 mod propagation;
 mod prospero;
 mod readback;
+mod regions;
+mod reference;
 mod repl;
 mod scenes;
 mod session;

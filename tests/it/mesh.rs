@@ -94,7 +94,7 @@ fn signs_are_those_of_dense_sampling() {
 }
 
 /// Every sample point of the hierarchy against a plain loop over the whole grid with the values' program.
-fn compare_signs(name: &str, signs: &Shape, values: &Shape, grid: &Grid) {
+pub fn compare_signs(name: &str, signs: &Shape, values: &Shape, grid: &Grid) {
     let bricks = Bricks::survey(signs, grid, &Limits::default(), &Interrupt::default()).expect("few vertices");
     let [nx, ny, nz] = grid.counts();
     let mut points = Points::<f64>::new();

@@ -5,7 +5,7 @@
 //! errors are magnified, and only there. The oracle, with other functions and other formulas, must agree within [`UNITS`] such widths.
 
 use yont::builtins::{self, Meaning};
-use yont::field::{Coordinate, NodeId};
+use yont::field::{Coordinate, NodeId, Region};
 use yont::limits::Limits;
 use yont::model::oracle::{Oracle, Value as Plain};
 use yont::model::value::Scalar;
@@ -54,6 +54,9 @@ impl Algebra for Loose {
 impl reference::Meaning for Loose {
     fn leaf(&mut self, leaf: &dyn Leaf, arguments: &[Interval]) -> Interval {
         leaf.bounds(arguments)
+    }
+    fn region(&mut self, region: &Region, arguments: &[Interval]) -> Vec<Interval> {
+        reference::region::over_a_box(region, arguments)
     }
 }
 
@@ -460,7 +463,7 @@ fn shortest(mut texts: Vec<String>) -> String {
 }
 
 /// Codes of errors that a random script may rightly have.
-const EXPECTED: &[&str] = &["undefined"];
+const EXPECTED: &[&str] = &["undefined", "division-by-zero"];
 
 #[test]
 fn the_oracle_knows_every_function_of_numbers() {

@@ -1,10 +1,8 @@
 //! Derivatives of regions. Of a loop: the same loop with the derivatives of its variables alongside. Of a highest value: that of the
 //! function where it is highest (the envelope theorem). Never approximates; undefined where there is no rule.
 
-use std::sync::Arc;
-
 use super::super::graph::{Coordinate, Graph, Node, NodeId};
-use super::super::region::{Form, Region, import};
+use super::super::region::{Form, Guard, Region, import};
 use super::{Rules, Slope, derivative};
 use crate::number::{Algebra, Binary, Ternary, Unary};
 
@@ -27,7 +25,7 @@ impl Rules<'_> {
             graph.intern(Node::Region(shared.clone(), output, shared_arguments.clone()))
         };
         match region.form() {
-            Form::Loop { condition, next } => self.repeated(region, (*condition, next), output, arguments, &slopes),
+            Form::Loop { .. } => self.repeated(region, output, arguments, &slopes),
             Form::Section { body, slope, .. } => {
                 let at = place(self.graph, 1);
                 if output == 0 {
@@ -45,14 +43,8 @@ impl Rules<'_> {
     }
 
     /// A loop with the derivatives of those variables that have one.
-    fn repeated(
-        &mut self,
-        region: &Region,
-        (condition, next): (NodeId, &Arc<[NodeId]>),
-        output: usize,
-        arguments: &[NodeId],
-        slopes: &[Slope],
-    ) -> Slope {
+    fn repeated(&mut self, region: &Region, output: usize, arguments: &[NodeId], slopes: &[Slope]) -> Slope {
+        let Form::Loop { next, guards, .. } = region.form() else { return None };
         let mut inner = region.graph().clone();
         let moving = moving(&mut inner, next, slopes);
         if !moving[output] {
@@ -86,13 +78,13 @@ impl Rules<'_> {
             .collect();
         let mut graph = Graph::new();
         let parameters: Vec<NodeId> = parameter_of.iter().map(|p| graph.coordinate(Coordinate(*p as u8))).collect();
-        let roots: Vec<NodeId> =
-            std::iter::once(condition).chain(next.iter().copied()).chain(partials.iter().map(|p| p.2)).collect();
+        let roots: Vec<NodeId> = region.form().roots().into_iter().chain(partials.iter().map(|p| p.2)).collect();
+        let plain = region.form().roots().len();
         let copies = import(&mut graph, &inner, &roots, &parameters);
         let mut steps: Vec<NodeId> = copies[1..=count].to_vec();
         for i in (0..count).filter(|i| moving[*i]) {
             let mut sum = None;
-            for ((_, j, _), by) in partials.iter().zip(&copies[count + 1..]).filter(|(p, _)| p.0 == i) {
+            for ((_, j, _), by) in partials.iter().zip(&copies[plain..]).filter(|(p, _)| p.0 == i) {
                 if graph.number(*by) == Some(0.0) {
                     continue;
                 }
@@ -102,7 +94,9 @@ impl Rules<'_> {
             }
             steps.push(sum.unwrap_or_else(|| graph.constant(0.0)));
         }
-        let shared = Region::new(graph, Form::Loop { condition: copies[0], next: steps.into() });
+        let guards = guards.iter().zip(&copies[count + 1..]).map(|(guard, holds)| Guard { holds: *holds, ..*guard });
+        let form = Form::Loop { condition: copies[0], next: steps.into(), guards: guards.collect() };
+        let shared = Region::new(graph, form);
         let which = slope_of[output] - 1;
         Some(self.graph.intern(Node::Region(shared, which as u32, made.into())))
     }

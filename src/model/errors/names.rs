@@ -35,7 +35,10 @@ pub fn unknown_name_among(
         return told.help("`_` is the value of the last expression at the prompt, and there is none yet");
     }
     if let Some(builtin) = builtins::find(name) {
-        return told.help(format!("`{}` is a built-in function: {}", builtin.name, builtin.signature()));
+        return told.help(format!("`{}` is a built-in function: {}", builtin.name, builtin.signature())).help(format!(
+            "to pass it on as an argument, define a function of your own that calls `{}`",
+            builtin.name
+        ));
     }
     if let Some(help) = foreign(name) {
         return told.help(help);

@@ -249,6 +249,33 @@ pub fn check_defined(operands: &[Scalar], result: Scalar, what: impl FnOnce() ->
     Err(Fault::from(told))
 }
 
+/// A function of the coordinates divided by a number that is 0.
+pub fn divides_by_zero(span: Span, divisor: Span) -> Diagnostic {
+    Diagnostic::error("division-by-zero", "this divides by zero at every point")
+        .at(divisor, "is 0")
+        .see(span, "")
+        .help("the divisor is the same at every point: is a parameter 0 that should not be?")
+}
+
+/// A space that ends where it begins, or before.
+pub fn no_extent(c: Coordinate, (lo, lo_at): (f64, Option<Span>), (hi, hi_at): (f64, Option<Span>)) -> Diagnostic {
+    let title = format!("the modelling space has no extent along {c}: {} to {}", value::number(lo), value::number(hi));
+    let told = Diagnostic::error("no-extent", title);
+    let told = hi_at.into_iter().fold(told, |told, span| told.at(span, format!("is {}", value::number(hi))));
+    let told = lo_at.into_iter().fold(told, |told, span| told.see(span, format!("is {}", value::number(lo))));
+    told.help(format!("{c}min must be below {c}max"))
+}
+
+/// A setting at the end of a block, with which it ends.
+pub fn setting_is_lost(name: &str, span: Span) -> Diagnostic {
+    Diagnostic::warning(
+        "setting-is-lost",
+        format!("`{name}` changes nothing here: it is set for the rest of its block only"),
+    )
+    .at(span, "the block ends here")
+    .help(format!("set it outside: `{name} = IF ... THEN ... ELSE ...;`"))
+}
+
 /// `r_alpha` or `r_m` out of range.
 pub fn bad_system(name: &str, value: &Value, span: Span) -> Diagnostic {
     let shown = match value {

@@ -57,6 +57,7 @@ impl Lower<'_> {
     }
 
     fn volume(&mut self, kind: &str, file: &str, kind_at: &Expr, file_at: &Expr) -> Lowered<Arc<dyn Leaf>> {
+        let known = interpolation(kind, kind_at.span)?;
         let from = self.world.sources.get(file_at.span.source).map(|s| PathBuf::from(&s.name));
         let path = crate::host::resolve(from.as_deref(), Path::new(file));
         let key = (path, kind.to_ascii_lowercase());
@@ -68,19 +69,12 @@ impl Lower<'_> {
             .host
             .read(&key.0, self.world.limits.data_bytes)
             .map_err(|e| e.diagnostic().at(file_at.span, "").see(kind_at.span, ""))?;
-        let leaf = self.decode(&key.1, &key.0, &bytes, kind_at.span, file_at.span)?;
+        let leaf = self.decode(known, &key.0, &bytes, file_at.span)?;
         self.files.leaves.insert(key, leaf.clone());
         Ok(leaf)
     }
 
-    fn decode(&self, kind: &str, path: &Path, bytes: &[u8], kind_at: Span, file_at: Span) -> Lowered<Arc<dyn Leaf>> {
-        let Some(kind) = Interpolation::from_name(kind) else {
-            let known: Vec<String> = Interpolation::NAMES.iter().map(|(name, _)| format!("\"{name}\"")).collect();
-            return Err(Diagnostic::error("interpolation-kind", format!("there is no interpolation \"{kind}\""))
-                .at(kind_at, "")
-                .help(format!("the kinds are {}", known.join(", ")))
-                .into());
-        };
+    fn decode(&self, kind: Interpolation, path: &Path, bytes: &[u8], file_at: Span) -> Lowered<Arc<dyn Leaf>> {
         let mut fetch = |file: &str| {
             let beside = crate::host::resolve(Some(path), Path::new(file));
             let read = self.world.host.read(&beside, self.world.limits.data_bytes);
@@ -98,4 +92,14 @@ impl Lower<'_> {
                 .into(),
         })
     }
+}
+
+fn interpolation(kind: &str, place: Span) -> Lowered<Interpolation> {
+    Interpolation::from_name(&kind.to_ascii_lowercase()).ok_or_else(|| {
+        let known: Vec<String> = Interpolation::NAMES.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+        Diagnostic::error("interpolation-kind", format!("there is no interpolation \"{kind}\""))
+            .at(place, "")
+            .help(format!("the kinds are {}", known.join(", ")))
+            .into()
+    })
 }

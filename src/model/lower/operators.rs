@@ -90,6 +90,9 @@ impl Lower<'_> {
     /// Arithmetic on two values, by element where one is an array.
     pub(super) fn arithmetic(&mut self, op: Binary, a: &Value, b: &Value, at: Span, bt: Span) -> Lowered<Value> {
         match (a, b) {
+            (Value::Scalar(Scalar::Node(_)), Value::Scalar(Scalar::Number(0.0))) if op == Binary::Div => {
+                Err(errors::divides_by_zero(at.to(bt), bt).into())
+            }
             (Value::Scalar(x), Value::Scalar(y)) => {
                 let result = self.scalars().binary(op, *x, *y);
                 errors::check_defined(&[*x, *y], result, || errors::operation(op, *x, *y), at.to(bt))?;

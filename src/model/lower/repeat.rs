@@ -32,12 +32,7 @@ impl Variables {
 
 impl Lower<'_> {
     /// Runs a loop at each point from where its names stand; whether it could.
-    pub(super) fn at_each_point(
-        &mut self,
-        condition: &Expr,
-        body: &[Statement],
-        names: &[Name],
-    ) -> Lowered<bool> {
+    pub(super) fn at_each_point(&mut self, condition: &Expr, body: &[Statement], names: &[Name]) -> Lowered<bool> {
         let before = self.slots(names);
         let (warnings, turns) = (self.warnings.len(), self.turns);
         let (from, depth, calls, frame) = (self.variables, self.depth, self.calls, self.frame);

@@ -13,11 +13,12 @@ use crate::limits::Limits;
 use crate::picture::Image;
 use crate::picture::field::sample;
 use crate::surface::sampler::Counters;
+use crate::vm::region::Counts;
 use crate::vm::{Demand, Shape};
 
 use super::output::{Format, Kind, Output, Target, numbered};
 use super::subject::Subject;
-use super::{Options, pictures};
+use super::{Background, Options, pictures};
 
 /// What was written, and what there is to say of it.
 #[derive(Debug, Default)]
@@ -90,6 +91,7 @@ impl Making<'_> {
     fn pictures(&mut self) -> Result<(), Diagnostic> {
         let moments = self.moments();
         let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
+        self.written.notes.extend(artist.notes(self.options));
         for (n, moment) in moments.into_iter().enumerate() {
             let begun = Instant::now();
             let picture = artist.picture(moment, self.shop.interrupt)?;
@@ -110,8 +112,14 @@ impl Making<'_> {
             let help = "give a coordinate the type T and a range: `x4 : T; x4min = 0; x4max = 1; x4_delta = 0.1;`";
             self.written.notes.push(Diagnostic::warning("no-motion", title).help(help));
         }
+        if self.output.format == Format::Gif && self.options.picture.background == Some(Background::Transparent) {
+            let title = "a GIF has no pixels that are transparent in part, and would have jagged edges";
+            let help = "ask for an .apng, or for another --background";
+            return Err(Diagnostic::error("no-transparency", title).category(Category::Usage).help(help));
+        }
         let begun = Instant::now();
         let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
+        self.written.notes.extend(artist.notes(self.options));
         let (mut frames, mut counters, mut hits) = (Vec::new(), Counters::default(), 0);
         for &moment in &moments {
             let picture = artist.picture(moment, self.shop.interrupt)?;
@@ -138,6 +146,7 @@ impl Making<'_> {
     }
 
     fn samples(&mut self) -> Result<(), Diagnostic> {
+        self.subject.is_alone("a sampled field")?;
         self.subject.shown_by("a sampled field", &["levels"])?;
         let cells = self.subject.along(self.options.view.cells)?;
         let space: Vec<(f64, f64)> = self.subject.bounds().iter().map(|[lo, hi]| (*lo, *hi)).collect();
@@ -205,8 +214,7 @@ impl Making<'_> {
         let name = &self.subject.name;
         let title = format!("{what} needs {axes} axes; `{name}` has {} here: {}", have.len(), have.join(", "));
         let help = if have.len() < axes {
-            "give the missing coordinate a range (`x3min = -1; x3max = 1;` or --bounds x3=-1:1), or ask for a .png"
-                .into()
+            "make a further coordinate an axis (`x3 : Z; x3min = -1; x3max = 1;`), or ask for a .png".into()
         } else {
             let last = &have[have.len() - 1];
             format!("cut it into slices, --slices {last}=LO:HI:N, or take one section: --at {last}=0")
@@ -251,7 +259,13 @@ impl Making<'_> {
         let place: Vec<String> = counters.example.iter().flatten().map(|c| format!("{c:.6}")).collect();
         let title = format!("`{}` is undefined at {} of the evaluated points", self.subject.name, counters.undefined);
         let fact = format!("one of them is ({}); undefined points count as outside", place.join(", "));
-        self.written.notes.push(Diagnostic::warning("undefined-points", title).fact(fact));
+        let mut told = Diagnostic::warning("undefined-points", title).fact(fact);
+        if counters.regions.endless > 0 {
+            let (endless, limit) = (counters.regions.endless, self.shop.limits.point_turns);
+            told = told.fact(format!("{endless} times a loop took more than {limit} turns, and was given up"));
+            told = told.help("bound its turns: `WHILE (n < 100 AND ...) DO BEGIN ... n = n + 1; END`");
+        }
+        self.written.notes.push(told);
     }
 }
 
@@ -301,9 +315,24 @@ fn to_standard(
 
 fn picture_line(image: &Image, counters: &Counters) -> String {
     format!(
-        "{} x {} pixels, {} points and {} boxes evaluated",
-        image.width, image.height, counters.points, counters.boxes
+        "{} x {} pixels, {} points and {} boxes evaluated{}",
+        image.width,
+        image.height,
+        counters.points,
+        counters.boxes,
+        regions_line(counters.regions)
     )
+}
+
+/// What loops and searches took, behind the rest of a line; nothing if there was none.
+pub(super) fn regions_line(counts: Counts) -> String {
+    let mut line = String::new();
+    for (count, what) in [(counts.turns, "turns of loops"), (counts.searches, "searches for a highest value")] {
+        if count > 0 {
+            line += &format!(", {count} {what}");
+        }
+    }
+    line
 }
 
 fn write_gif(frames: &[Image], delay: f64, out: &mut dyn Write) -> io::Result<()> {

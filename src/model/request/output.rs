@@ -9,13 +9,13 @@ use crate::diagnostic::near::{Candidate, suggest};
 pub enum Format {
     /// A mesh of triangles, binary.
     Stl,
-    /// A mesh with normals, text.
+    /// A mesh with normals and colours, text.
     Obj,
-    /// A mesh with normals, binary.
+    /// A mesh with normals and colours, binary.
     Ply,
     /// A mesh with normals and colours, binary, moving over T.
     Glb,
-    /// A mesh for printing, with a picture of it.
+    /// A mesh for printing, with colours and a picture of it.
     ThreeMf,
     /// A picture.
     Png,
@@ -47,10 +47,10 @@ pub enum Kind {
 /// The one list of formats: what is made, its extension, what it is called, what it holds.
 pub const FORMATS: &[(Format, &str, &str, Kind)] = &[
     (Format::Stl, "stl", "a mesh of triangles, binary", Kind::Mesh),
-    (Format::Obj, "obj", "a mesh with normals, text", Kind::Mesh),
-    (Format::Ply, "ply", "a mesh with normals, binary", Kind::Mesh),
+    (Format::Obj, "obj", "a mesh with normals and colours, text", Kind::Mesh),
+    (Format::Ply, "ply", "a mesh with normals and colours, binary", Kind::Mesh),
     (Format::Glb, "glb", "a mesh for viewers, binary; over T it moves, groups show through", Kind::Mesh),
-    (Format::ThreeMf, "3mf", "a mesh for printing, in millimetres", Kind::Mesh),
+    (Format::ThreeMf, "3mf", "a mesh for printing, in millimetres, with colours", Kind::Mesh),
     (Format::Png, "png", "a picture, a graph or a contour map", Kind::Picture),
     (Format::Svg, "svg", "outlines of a plane figure, or slices of a solid (--slices)", Kind::Outlines),
     (Format::Gif, "gif", "an animation over T", Kind::Animation),

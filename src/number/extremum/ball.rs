@@ -16,6 +16,8 @@ pub trait Ball {
 
 /// Starts from which the search goes on.
 const CLIMBS: usize = 3;
+/// Parts of the radius by which they lie apart, so that one hill is not climbed twice.
+const APART: f64 = 0.9;
 /// Looks of one climb at most.
 const LOOKS: usize = 200;
 /// Parts of the radius at which a climb ends.
@@ -34,8 +36,9 @@ pub fn directions(dimension: usize) -> Vec<Vec<f64>> {
         let steps: &[f64] = if dimension == 2 { &[-2.0, -1.0, 0.0, 1.0, 2.0] } else { &[-1.0, 0.0, 1.0] };
         let count = steps.len().pow(u32::try_from(dimension).unwrap_or(3));
         for i in 0..count {
-            let v: Vec<f64> =
-                (0..dimension).map(|k| steps[i / steps.len().pow(u32::try_from(k).unwrap_or(0)) % steps.len()]).collect();
+            let v: Vec<f64> = (0..dimension)
+                .map(|k| steps[i / steps.len().pow(u32::try_from(k).unwrap_or(0)) % steps.len()])
+                .collect();
             let rim = v.iter().any(|x| x.abs() == steps[steps.len() - 1]);
             if rim {
                 all.push(unit(v));
@@ -64,6 +67,55 @@ pub fn directions(dimension: usize) -> Vec<Vec<f64>> {
     all
 }
 
+/// Places to be asked about: one column per variable.
+struct Places {
+    columns: Vec<Vec<f64>>,
+    values: Vec<f64>,
+}
+
+impl Places {
+    fn new(dimension: usize) -> Self {
+        Self { columns: vec![Vec::new(); dimension], values: Vec::new() }
+    }
+
+    fn clear(&mut self) {
+        self.columns.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Adds the step `from + scale * direction`, drawn to the boundary if it leads out of the ball.
+    fn add(&mut self, from: &[f64], scale: f64, direction: &[f64], radius: f64) {
+        let mut square = 0.0;
+        for ((column, from), d) in self.columns.iter_mut().zip(from).zip(direction) {
+            let x = from + scale * d;
+            square += x * x;
+            column.push(x);
+        }
+        if square > radius * radius {
+            let shrink = radius / square.sqrt();
+            self.columns.iter_mut().filter_map(|column| column.last_mut()).for_each(|x| *x *= shrink);
+        }
+    }
+
+    fn get(&self, i: usize) -> Vec<f64> {
+        self.columns.iter().map(|column| column[i]).collect()
+    }
+
+    fn ask<B: Ball + ?Sized>(&mut self, ball: &mut B) {
+        let count = self.columns.first().map_or(0, Vec::len);
+        self.values.clear();
+        self.values.resize(count, 0.0);
+        if count <= 2 * AT_ONCE {
+            ball.values(&self.columns, &mut self.values);
+            return;
+        }
+        for start in (0..count).step_by(2 * AT_ONCE) {
+            let end = count.min(start + 2 * AT_ONCE);
+            let part: Vec<Vec<f64>> = self.columns.iter().map(|column| column[start..end].to_vec()).collect();
+            ball.values(&part, &mut self.values[start..end]);
+        }
+    }
+}
+
 /// The steps from the centre to where the function is highest in the ball; NaN where the radius is undefined or infinite.
 pub fn highest<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: f64, directions: &[Vec<f64>]) -> Vec<f64> {
     if !radius.is_finite() {
@@ -73,32 +125,36 @@ pub fn highest<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: f64, di
     if radius <= 0.0 {
         return centre;
     }
-    let mut starts: Vec<Vec<f64>> = vec![centre];
+    let mut starts = Places::new(dimension);
+    starts.add(&centre, 0.0, &centre, f64::INFINITY);
     for scale in [radius, 0.5 * radius] {
-        starts.extend(directions.iter().map(|d| d.iter().map(|x| scale * x).collect()));
+        directions.iter().for_each(|d| starts.add(&centre, scale, d, f64::INFINITY));
     }
-    let values = ask(ball, dimension, &starts);
-    let mut order: Vec<usize> = (0..starts.len()).collect();
-    let rank = |v: f64| if v.is_nan() { f64::NEG_INFINITY } else { v };
-    order.sort_by(|&i, &j| rank(values[j]).total_cmp(&rank(values[i])).then(i.cmp(&j)));
-    let (mut best, mut top) = (starts[order[0]].clone(), values[order[0]]);
-    for &i in order.iter().take(CLIMBS).filter(|i| !values[**i].is_nan()) {
-        let (at, value) = climb(ball, radius, directions, (starts[i].clone(), values[i]));
-        if value > top || top.is_nan() {
+    starts.ask(ball);
+    let mut order: Vec<usize> = (0..starts.values.len()).filter(|i| !starts.values[*i].is_nan()).collect();
+    order.sort_by(|&i, &j| starts.values[j].total_cmp(&starts.values[i]).then(i.cmp(&j)));
+    let Some(&first) = order.first() else { return centre };
+    let (mut best, mut top) = (starts.get(first), starts.values[first]);
+    let mut climbed: Vec<Vec<f64>> = Vec::new();
+    let mut looks = Places::new(dimension);
+    for &i in &order {
+        let start = starts.get(i);
+        let near = |other: &Vec<f64>| {
+            other.iter().zip(&start).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() < APART * APART * radius * radius
+        };
+        if climbed.iter().any(near) {
+            continue;
+        }
+        let (at, value) = climb(ball, radius, directions, (start.clone(), starts.values[i]), &mut looks);
+        if value > top {
             (best, top) = (at, value);
+        }
+        climbed.push(start);
+        if climbed.len() == CLIMBS {
+            break;
         }
     }
     best
-}
-
-/// Values at any number of places.
-fn ask<B: Ball + ?Sized>(ball: &mut B, dimension: usize, places: &[Vec<f64>]) -> Vec<f64> {
-    let mut values = vec![0.0; places.len()];
-    for (places, values) in places.chunks(2 * AT_ONCE).zip(values.chunks_mut(2 * AT_ONCE)) {
-        let steps: Vec<Vec<f64>> = (0..dimension).map(|k| places.iter().map(|p| p[k]).collect()).collect();
-        ball.values(&steps, values);
-    }
-    values
 }
 
 fn climb<B: Ball + ?Sized>(
@@ -106,19 +162,17 @@ fn climb<B: Ball + ?Sized>(
     radius: f64,
     directions: &[Vec<f64>],
     (mut at, mut value): (Vec<f64>, f64),
+    looks: &mut Places,
 ) -> (Vec<f64>, f64) {
     let mut reach = 0.25 * radius;
     for _ in 0..LOOKS {
-        let mut places: Vec<Vec<f64>> = Vec::with_capacity(2 * directions.len());
+        looks.clear();
         for scale in [reach, 0.3 * reach] {
-            places.extend(directions.iter().map(|d| {
-                let step: Vec<f64> = at.iter().zip(d).map(|(a, d)| a + scale * d).collect();
-                within(step, radius)
-            }));
+            directions.iter().for_each(|d| looks.add(&at, scale, d, radius));
         }
-        let values = ask(ball, at.len(), &places);
+        looks.ask(ball);
         let mut found = None;
-        for (i, v) in values.iter().enumerate() {
+        for (i, v) in looks.values.iter().enumerate() {
             if *v > value {
                 value = *v;
                 found = Some(i);
@@ -126,7 +180,7 @@ fn climb<B: Ball + ?Sized>(
         }
         match found {
             Some(i) => {
-                at.clone_from(&places[i]);
+                at = looks.get(i);
                 if i >= directions.len() {
                     reach *= 0.6;
                 }
@@ -138,16 +192,6 @@ fn climb<B: Ball + ?Sized>(
         }
     }
     (at, value)
-}
-
-/// The step, drawn to the boundary if it leads out of the ball.
-fn within(step: Vec<f64>, radius: f64) -> Vec<f64> {
-    let length = step.iter().fold(0.0, |all, x| Binary::Hypot.real(all, *x));
-    if length <= radius {
-        return step;
-    }
-    let scale = radius / length;
-    step.into_iter().map(|x| x * scale).collect()
 }
 
 /// Over a box of centres: the range of the highest value, and of the steps to it.

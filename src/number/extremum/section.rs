@@ -64,8 +64,7 @@ pub fn highest<S: Section + ?Sized>(section: &mut S, lo: f64, hi: f64, budget: u
     }
     let lowest = survey(section, lo, hi, &mut best);
     let mut search = Search { section, best, spread: best.value - lowest, whole: hi - lo };
-    let mut pieces: Vec<[f64; 2]> =
-        (0..PIECES).map(|i| [place(lo, hi, part(i)), place(lo, hi, part(i + 1))]).collect();
+    let mut pieces: Vec<[f64; 2]> = (0..PIECES).map(|i| [place(lo, hi, part(i)), place(lo, hi, part(i + 1))]).collect();
     let mut left = budget;
     while !pieces.is_empty() && left > 0 {
         let mut next = Vec::new();
@@ -107,13 +106,7 @@ fn survey<S: Section + ?Sized>(section: &mut S, lo: f64, hi: f64, best: &mut Bes
 /// time: about where the secant meets zero, and evenly spread.
 ///
 /// A place where the derivative vanishes is preferred to others of the bracket that are higher by `slack`.
-fn climb<S: Section + ?Sized>(
-    section: &mut S,
-    rising: (f64, f64),
-    falling: (f64, f64),
-    slack: f64,
-    best: &mut Best,
-) {
+fn climb<S: Section + ?Sized>(section: &mut S, rising: (f64, f64), falling: (f64, f64), slack: f64, best: &mut Best) {
     let ((mut a, mut rise), (mut b, mut fall)) = (rising, falling);
     for _ in 0..40 {
         let width = b - a;
@@ -245,7 +238,8 @@ pub fn bounds<S: Section + ?Sized>(section: &mut S, lo: Interval, hi: Interval) 
     }
     section.ranges(&over[..=PIECES], &mut values[..=PIECES], &mut rates[..=PIECES]);
     let samples = &values[..=PIECES];
-    let floor = samples.iter().map(|v| if v.undefined { f64::NEG_INFINITY } else { v.lo }).fold(f64::NEG_INFINITY, f64::max);
+    let floor =
+        samples.iter().map(|v| if v.undefined { f64::NEG_INFINITY } else { v.lo }).fold(f64::NEG_INFINITY, f64::max);
     let undefined = samples.iter().all(|v| v.undefined);
     // Above: no more than over all pieces; those that reach the floor are looked at again, more closely.
     let mut pieces: Vec<[f64; 2]> = (0..PIECES).map(|i| [part(i), part(i + 1)]).collect();
@@ -277,10 +271,12 @@ pub fn bounds<S: Section + ?Sized>(section: &mut S, lo: Interval, hi: Interval) 
             break;
         }
         #[allow(clippy::cast_precision_loss)]
-        let cuts = |[s, t]: [f64; 2]| (0..cut).map(move |i| {
-            let step = |i: usize| s + (t - s) * i as f64 / cut as f64;
-            [step(i), if i + 1 == cut { t } else { step(i + 1) }]
-        });
+        let cuts = |[s, t]: [f64; 2]| {
+            (0..cut).map(move |i| {
+                let step = |i: usize| s + (t - s) * i as f64 / cut as f64;
+                [step(i), if i + 1 == cut { t } else { step(i + 1) }]
+            })
+        };
         pieces = kept.into_iter().flat_map(cuts).collect();
         if pieces.is_empty() {
             break;

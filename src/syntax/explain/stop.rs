@@ -316,6 +316,9 @@ fn separator(around: &Around<'_>, last: Token, token: Token) -> &'static str {
         _ if last.kind == TokenKind::Number && token.kind == TokenKind::Number && last.end == token.start => {
             "a number has one point"
         }
+        _ if token.kind == TokenKind::Open && last.kind == TokenKind::Close => {
+            "to take the value at a point write AT between: `... AT (1, 2)`; for a product `*`"
+        }
         _ if last.end == token.start => "for a product write `*` between",
         Some((bracket, word)) if bracket == "[" || !word.is_empty() => "put an operator or `,` between",
         Some(_) => "put an operator between",

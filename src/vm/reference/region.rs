@@ -1,7 +1,7 @@
 //! Regions as the walk evaluates them: one point or one box at a time, turn by turn, question by question.
 
 use super::{Meaning, eval_all};
-use crate::field::{Coordinate, Form, NodeId, Region};
+use crate::field::{Bound, Coordinate, Form, Guard, NodeId, Region};
 use crate::limits::Limits;
 use crate::number::extremum::ball::{self, Ball};
 use crate::number::extremum::section::{self, Section};
@@ -37,7 +37,7 @@ pub fn at_a_point<M: Meaning>(
                 if turn == limits.point_turns {
                     return vec![meaning.constant(f64::NAN); next.len()];
                 }
-                parameters[..next.len()].clone_from_slice(&results[1..]);
+                parameters[..next.len()].clone_from_slice(&results[1..=next.len()]);
             }
             parameters.truncate(next.len());
             parameters
@@ -83,7 +83,7 @@ pub fn at_a_point<M: Meaning>(
 /// The ranges of the outputs of a region over a box.
 pub fn over_a_box(region: &Region, arguments: &[Interval]) -> Vec<Interval> {
     match region.form() {
-        Form::Loop { next, .. } => repeated(region, next.len(), arguments),
+        Form::Loop { next, guards, .. } => repeated(region, next.len(), guards, arguments),
         Form::Section { continuous, .. } => {
             let mut walk = Boxes { region, still: &arguments[2..], centre: &[], continuous: *continuous };
             section::bounds(&mut walk, arguments[0], arguments[1]).to_vec()
@@ -97,16 +97,17 @@ pub fn over_a_box(region: &Region, arguments: &[Interval]) -> Vec<Interval> {
     }
 }
 
-fn repeated(region: &Region, count: usize, arguments: &[Interval]) -> Vec<Interval> {
+fn repeated(region: &Region, count: usize, guards: &[Guard], arguments: &[Interval]) -> Vec<Interval> {
     let mut turns = Turns::default();
     turns.begin(count);
     let mut parameters = arguments.to_vec();
     for turn in 0.. {
         let results = roots(&mut Intervals, region, &region.form().roots(), &parameters);
-        if !turns.goes_on(results[0], |i| parameters[i]) {
+        let parts = guards.iter().zip(&results[count + 1..]).map(|(g, holds)| (*holds, g.bound.map(Bound::within)));
+        if !turns.goes_on(results[0], parts, |i| parameters[i]) {
             break;
         }
-        let mut next = results[1..].to_vec();
+        let mut next = results[1..=count].to_vec();
         if turns.joins() {
             next.iter_mut().zip(&parameters).for_each(|(next, old)| *next = Turns::joined(*old, *next));
         }

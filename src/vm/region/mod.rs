@@ -4,13 +4,12 @@
 mod repeat;
 mod search;
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use super::compile::CompileError;
 use super::kernels::{Kind, Store};
 use super::program::{Demand, Program, Value};
-use crate::field::{Coordinate, Form, NodeId, Region};
+use crate::field::{Bound, Coordinate, Form, NodeId, Region};
 use crate::limits::Limits;
+use crate::number::Interval;
 use crate::number::extremum::ball::directions;
 use crate::number::turns::Turns;
 use search::Probe;
@@ -20,8 +19,8 @@ use search::Probe;
 pub struct Counts {
     /// Turns of loops, over all points.
     pub turns: u64,
-    /// Points that took more turns than allowed, and so are undefined.
-    pub exceeded: u64,
+    /// Loops that took more turns than allowed at some point, which is undefined there.
+    pub endless: u64,
     /// Points at which a highest value was searched.
     pub searches: u64,
 }
@@ -32,7 +31,7 @@ impl Counts {
     pub fn plus(self, other: Self) -> Self {
         Self {
             turns: self.turns + other.turns,
-            exceeded: self.exceeded + other.exceeded,
+            endless: self.endless + other.endless,
             searches: self.searches + other.searches,
         }
     }
@@ -66,15 +65,12 @@ impl Body {
 #[derive(Debug)]
 pub(crate) struct RegionProgram {
     work: Work,
-    turns: AtomicU64,
-    exceeded: AtomicU64,
-    searches: AtomicU64,
 }
 
 #[derive(Debug)]
 enum Work {
-    /// The condition, then the next values.
-    Loop { body: Body, limit: usize },
+    /// The condition, then the next values of the variables, then the parts of the condition; what is known where those fail.
+    Loop { body: Body, states: usize, guards: Vec<Option<(usize, Interval)>>, limit: usize },
     /// The value; the value and its derivative.
     Section { body: Body, both: Body, continuous: bool, budget: usize },
     /// The value, over so many parameters that move.
@@ -92,11 +88,15 @@ impl RegionProgram {
             used.map(|c| usize::from(c.0)).max().unwrap_or(0)
         };
         let roots = region.form().roots();
-        let compile = |roots: &[NodeId], least: usize| {
-            Body::compile(region, roots, coordinates(roots).max(least), limits)
-        };
+        let compile =
+            |roots: &[NodeId], least: usize| Body::compile(region, roots, coordinates(roots).max(least), limits);
         let work = match region.form() {
-            Form::Loop { next, .. } => Work::Loop { body: compile(&roots, next.len())?, limit: limits.point_turns },
+            Form::Loop { next, guards, .. } => Work::Loop {
+                body: compile(&roots, next.len())?,
+                states: next.len(),
+                guards: guards.iter().map(|guard| guard.bound.map(Bound::within)).collect(),
+                limit: limits.point_turns,
+            },
             Form::Section { continuous, .. } => Work::Section {
                 body: compile(&roots[..1], 1)?,
                 both: compile(&roots, 1)?,
@@ -109,30 +109,30 @@ impl RegionProgram {
                 directions: directions(*dimension),
             },
         };
-        let zero = || AtomicU64::new(0);
-        Ok(Self { work, turns: zero(), exceeded: zero(), searches: zero() })
+        Ok(Self { work })
     }
 
-    /// What it has cost.
-    pub(crate) fn counts(&self) -> Counts {
-        let get = |count: &AtomicU64| count.load(Ordering::Relaxed);
-        Counts { turns: get(&self.turns), exceeded: get(&self.exceeded), searches: get(&self.searches) }
+    /// Whether it searches for a highest value, or a part of it does.
+    pub(crate) fn searches(&self) -> bool {
+        match &self.work {
+            Work::Loop { body, .. } => body.program.has_searches(),
+            Work::Section { .. } | Work::Ball { .. } => true,
+        }
     }
 
     /// Runs it on the first lanes of what it was given.
     pub(crate) fn run<K: Pointwise>(&self, store: &mut RegionStore<K>, lanes: usize) {
         match &self.work {
-            Work::Loop { body, limit } => {
-                let (turns, exceeded) = repeat::points(body, *limit, store, lanes);
-                self.turns.fetch_add(turns, Ordering::Relaxed);
-                self.exceeded.fetch_add(exceeded, Ordering::Relaxed);
+            Work::Loop { body, states, limit, .. } => {
+                let (turns, endless) = repeat::points(body, *states, *limit, store, lanes);
+                store.counts = store.counts.plus(Counts { turns, endless, searches: 0 });
             }
             Work::Section { body, both, continuous, budget } => {
-                self.searches.fetch_add(lanes as u64, Ordering::Relaxed);
+                store.counts.searches += lanes as u64;
                 search::sections(body, both, (*continuous, *budget), store, lanes);
             }
             Work::Ball { body, dimension, directions } => {
-                self.searches.fetch_add(lanes as u64, Ordering::Relaxed);
+                store.counts.searches += lanes as u64;
                 search::balls(body, *dimension, directions, store, lanes);
             }
         }
@@ -141,7 +141,9 @@ impl RegionProgram {
     /// Bounds what it puts out, over the boxes in the first lanes.
     pub(crate) fn run_ranges(&self, store: &mut RegionStore<super::interval::Ranges>, lanes: usize) {
         match &self.work {
-            Work::Loop { body, limit } => repeat::ranges(body, *limit, store, lanes),
+            Work::Loop { body, states, guards, limit } => {
+                repeat::ranges(body, (*states, guards), *limit, store, lanes);
+            }
             Work::Section { both, continuous, .. } => search::section_ranges(both, *continuous, store, lanes),
             Work::Ball { body, dimension, directions } => {
                 search::ball_ranges(body, *dimension, directions, store, lanes);
@@ -166,6 +168,7 @@ pub(crate) struct RegionStore<K: Kind> {
     /// For loops over boxes, by lane.
     turns: Vec<Turns>,
     probe: Option<Box<Probe>>,
+    counts: Counts,
 }
 
 impl<K: Kind> RegionStore<K> {
@@ -180,7 +183,13 @@ impl<K: Kind> RegionStore<K> {
             going: Vec::new(),
             turns: Vec::new(),
             probe: None,
+            counts: Counts::default(),
         }
+    }
+
+    /// What it has cost since the last call, regions within it included.
+    pub(crate) fn take_counts(&mut self) -> Counts {
+        std::mem::take(&mut self.counts).plus(self.inner.take_counts())
     }
 
     /// Takes an argument.

@@ -4,17 +4,19 @@
 use super::super::interval::Ranges;
 use super::super::kernels::Kind;
 use super::{Body, Pointwise, RegionStore, copy, room};
+use crate::number::Interval;
 use crate::number::turns::Turns;
 
 /// Runs a loop at the points of the first lanes: the turns that they took together, and how many took too many.
 pub(super) fn points<K: Pointwise>(
     body: &Body,
+    states: usize,
     limit: usize,
     store: &mut RegionStore<K>,
     lanes: usize,
 ) -> (u64, u64) {
-    let states = begin(body, store, lanes);
-    let (mut active, mut taken, mut exceeded) = (lanes, 0, 0);
+    begin(body, states, store, lanes);
+    let (mut active, mut taken, mut endless) = (lanes, 0, 0);
     for turn in 0.. {
         store.run(&body.program, active);
         let condition = store.inner.of(&body.program, body.roots[0]);
@@ -31,7 +33,7 @@ pub(super) fn points<K: Pointwise>(
             }
         }
         if turn == limit {
-            exceeded = store.going.len() as u64;
+            endless = store.going.len() as u64;
             for &i in &store.going {
                 for state in 0..states {
                     K::set(&mut store.outputs[state], store.places[i], K::constant(f64::NAN));
@@ -51,12 +53,11 @@ pub(super) fn points<K: Pointwise>(
         active = advance(body, store, states, active);
         taken += active as u64;
     }
-    (taken, exceeded)
+    (taken, endless)
 }
 
-/// Puts the arguments into the inner inputs; the number of variables.
-fn begin<K: Kind>(body: &Body, store: &mut RegionStore<K>, lanes: usize) -> usize {
-    let states = body.roots.len() - 1;
+/// Puts the arguments into the inner inputs.
+fn begin<K: Kind>(body: &Body, states: usize, store: &mut RegionStore<K>, lanes: usize) {
     store.inner.reserve(&body.program);
     room::<K>(&mut store.outputs, states);
     room::<K>(&mut store.held, states);
@@ -65,7 +66,6 @@ fn begin<K: Kind>(body: &Body, store: &mut RegionStore<K>, lanes: usize) -> usiz
     }
     store.places.clear();
     store.places.extend(0..lanes);
-    states
 }
 
 /// Moves the lanes that go on to the front, with the next values that are held for them; their number.
@@ -90,8 +90,14 @@ fn advance<K: Kind>(body: &Body, store: &mut RegionStore<K>, states: usize, acti
 }
 
 /// Bounds the outputs of a loop over the boxes of the first lanes.
-pub(super) fn ranges(body: &Body, limit: usize, store: &mut RegionStore<Ranges>, lanes: usize) {
-    let states = begin(body, store, lanes);
+pub(super) fn ranges(
+    body: &Body,
+    (states, guards): (usize, &[Option<(usize, Interval)>]),
+    limit: usize,
+    store: &mut RegionStore<Ranges>,
+    lanes: usize,
+) {
+    begin(body, states, store, lanes);
     store.turns.resize_with(lanes.max(store.turns.len()), Turns::default);
     store.turns[..lanes].iter_mut().for_each(|t| t.begin(states));
     let mut active = lanes;
@@ -101,7 +107,8 @@ pub(super) fn ranges(body: &Body, limit: usize, store: &mut RegionStore<Ranges>,
         let value = |i: usize, root: u32| Ranges::get(store.inner.of(&body.program, root), i);
         for i in 0..active {
             let turns = &mut store.turns[store.places[i]];
-            if !turns.goes_on(value(i, body.roots[0]), |state| value(i, state as u32)) {
+            let parts = guards.iter().zip(&body.roots[states + 1..]).map(|(known, root)| (value(i, *root), *known));
+            if !turns.goes_on(value(i, body.roots[0]), parts, |state| value(i, state as u32)) {
                 continue;
             }
             if turn == limit {

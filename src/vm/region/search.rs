@@ -23,12 +23,7 @@ pub(crate) struct Probe {
 
 impl Probe {
     fn new() -> Box<Self> {
-        Box::new(Self {
-            doubles: Store::new(),
-            duals: Store::new(),
-            ranges: Store::new(),
-            choices: Choices::default(),
-        })
+        Box::new(Self { doubles: Store::new(), duals: Store::new(), ranges: Store::new(), choices: Choices::default() })
     }
 
     fn run_ranges(&mut self, body: &Body, lanes: usize) {
@@ -103,8 +98,7 @@ fn both_ranges(probe: &mut Probe, both: &Body, over: &[Interval], values: &mut [
     let block = probe.ranges.input(0);
     over.iter().enumerate().for_each(|(i, interval)| Ranges::set(block, i, *interval));
     probe.run_ranges(both, over.len());
-    let (value, slope) =
-        (probe.ranges.of(&both.program, both.roots[0]), probe.ranges.of(&both.program, both.roots[1]));
+    let (value, slope) = (probe.ranges.of(&both.program, both.roots[0]), probe.ranges.of(&both.program, both.roots[1]));
     for i in 0..over.len() {
         (values[i], slopes[i]) = (Ranges::get(value, i), Ranges::get(slope, i));
     }
@@ -153,13 +147,7 @@ pub(super) fn sections<K: Pointwise>(
 }
 
 /// The value where it is highest; undefined where there is no such place.
-fn finish<K: Pointwise>(
-    body: &Body,
-    store: &mut RegionStore<K>,
-    lanes: usize,
-
-) {
-
+fn finish<K: Pointwise>(body: &Body, store: &mut RegionStore<K>, lanes: usize) {
     store.run(&body.program, lanes);
     let result = store.inner.of(&body.program, body.roots[0]);
     let (value, places) = store.outputs.split_at_mut(1);
