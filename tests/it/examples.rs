@@ -125,7 +125,8 @@ fn runs_as_said(name: &str, text: &str, words: &[String]) {
     let (program, making) = (&cli.run.program, &cli.run.making);
     assert_eq!(program.file.as_deref(), Some(Path::new(&format!("examples/{name}"))), "{name} is run as itself");
     let (mut session, _, host) = defined(name, text, &program.define);
-    let mut options = yont::cli::make::options(making);
+    let defaults = yont::model::settings::defaults(&session).expect("settings");
+    let mut options = yont::cli::make::options(making, defaults);
     options.view.cells = Cells::Along(32);
     options.picture.size = Some((48, 36));
     for to in &cli.run.output {
@@ -148,9 +149,10 @@ fn measures_as_said(name: &str, text: &str, words: Option<&Vec<String>>) {
         let Some(Command::Measure(measure)) = cli.command else { panic!("{words:?} does not measure") };
         (making.subject, making.fineness, define) = (measure.subject, measure.fineness, measure.program.define);
     }
-    let mut view = yont::cli::make::view(&making);
-    view.cells = Cells::Along(making.fineness.resolution.unwrap_or(64));
     let (mut session, ..) = defined(name, text, &define);
+    let defaults = yont::model::settings::defaults(&session).expect("settings");
+    let mut view = yont::cli::make::view(&making, &defaults.view);
+    view.cells = Cells::Along(making.fineness.resolution.unwrap_or(64));
     let measured = request::measure(&mut session, &view).unwrap_or_else(|e| panic!("{name}: {e:?}"));
     let Dimension::Solid(measures, _) = measured.of else { panic!("{name} is no solid") };
     if let Some(volume) = volume {
