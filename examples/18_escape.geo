@@ -11,7 +11,7 @@ c = [-0.213, -0.0410, -0.563, -0.560];
 
 { The orbit of the point, for ten steps or until it is far away }
 z = [x1, x2, x3, x4];
-r = DOT(z, z);
+r = 0;
 n = 0;
 WHILE (n < 10 AND r <= 16) DO BEGIN
   z = [z[1]**2 - z[2]**2 - z[3]**2 - z[4]**2, 2*z[1]*z[2], 2*z[1]*z[3], 2*z[1]*z[4]] + c;
