@@ -13,7 +13,7 @@ seed  = 3 IN [1, 99] STEP 1;
 depth = 5 IN [0, 6]  STEP 1;
 
 { How many trees begin at a level, by counting those below }
-twigs(n) = IF n = 0 THEN 0 ELSE 1 + 3*twigs(n-1);
+twigs(n) = IF n <= 0 THEN 0 ELSE 1 + 3*twigs(n-1);
 PRINT twigs(depth), "twigs,", 3**depth, "leaves";
 
 { The product of two matrices, and of a matrix and a vector }
@@ -33,7 +33,7 @@ tr_placed((gob/pob) g, (array) p, (array) m, (real) s) = s*(g AT (applied(m, [x1
 
 { A tree of n levels; i tells its random numbers from those of any other }
 pob_tree((real) n, (real) i, (array) p, (array) m, (real) s) = BEGIN
-  IF (n = 0) THEN pob_tree = tr_placed(gob_leaf, p, m, s)
+  IF (n <= 0) THEN pob_tree = tr_placed(gob_leaf, p, m, s)
   ELSE BEGIN
     pob_tree = tr_placed(gob_twig, p, m, s);
     FOR k = 1 TO 3 DO BEGIN

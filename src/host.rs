@@ -146,7 +146,7 @@ impl FileError {
 
     fn help(&self) -> Option<&'static str> {
         Some(match (&self.reason, self.doing) {
-            (Reason::Missing, _) => "a relative path is looked for beside the file that names it",
+            (Reason::Missing, _) => "a relative path begins beside the program that names it, or on the command line in the current folder",
             (Reason::NoFolder, _) => "make the folder first, or write to another one",
             (Reason::Folder, _) => "name a file in it",
             (Reason::Special(_), Doing::Reading) => "copy its content into a file, or use `-` for standard input",
@@ -411,6 +411,13 @@ impl Host for Memory {
 pub fn state_folder() -> Option<PathBuf> {
     use etcetera::BaseStrategy;
     etcetera::base_strategy::Xdg::new().ok()?.state_dir().map(|folder| folder.join("yont"))
+}
+
+/// The folder for settings: `$XDG_CONFIG_HOME/yont`, by default `~/.config/yont`.
+#[must_use]
+pub fn settings_folder() -> Option<PathBuf> {
+    use etcetera::BaseStrategy;
+    Some(etcetera::base_strategy::Xdg::new().ok()?.config_dir().join("yont"))
 }
 
 /// The value of a variable of the environment; an empty one counts as none.

@@ -110,7 +110,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "RANDOM",
         &["seed", "i"],
         "The number i of the random sequence `seed`, from 0 to below 1: the same one every time.",
-        ("RANDOM(1, 5) = RANDOM(1, 5)", 1.0),
+        ("RANDOM(1, 5) == RANDOM(1, 5)", 1.0),
     ),
     entry(
         Special::Diff,

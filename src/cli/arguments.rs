@@ -3,14 +3,17 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::model::request::{FORMATS, Format};
 use crate::picture::camera::View;
 use crate::picture::palette::Palette;
 
+use super::text::near;
 use super::values::{
-    Assignment, Extent, Section, Size, Slices, angles, assignment, extent, positive, section, size, slices,
+    Assignment, Camera, Cutting, Extent, Ground, Section, Size, Slices, angles, assignment, background, camera, cut,
+    extent, positive, section, size, slices,
 };
 
 /// The whole command line.
@@ -46,7 +49,7 @@ fn after_help() -> String {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Runs a program; what `yont FILE` does
-    Run(Run),
+    Run(Box<Run>),
     /// Each object: dimension, coordinates and types, bounds, size of its program
     Info(Info),
     /// Volume, area, centroid, inertia, bounding box and genus, with error estimates
@@ -90,6 +93,9 @@ pub struct Common {
     /// The form of errors, warnings and notes
     #[arg(long, value_name = "FORM", global = true, default_value = "human")]
     pub diagnostics: Rendering,
+    /// Start without the settings of the file that `yont info --paths` names
+    #[arg(long, global = true)]
+    pub no_config: bool,
     /// Warnings count as errors
     #[arg(short = 'W', long = "warnings-as-errors", global = true)]
     pub strict: bool,
@@ -105,6 +111,32 @@ pub enum When {
     Always,
     /// Never
     Never,
+}
+
+/// Whether there is something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// There is
+    On,
+    /// There is not
+    Off,
+}
+
+impl Switch {
+    /// Whether it is on.
+    #[must_use]
+    pub fn is_on(self) -> bool {
+        self == Self::On
+    }
+}
+
+/// How space is projected onto a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Rays {
+    /// What is farther looks smaller
+    Perspective,
+    /// It does not
+    Orthographic,
 }
 
 /// The renderings of diagnostics.
@@ -126,7 +158,7 @@ pub struct Program {
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// The program itself, repeatable; runs after FILE
-    #[arg(short = 'e', long = "evaluate", value_name = "CODE")]
+    #[arg(short = 'e', long = "evaluate", value_name = "CODE", allow_hyphen_values = true)]
     pub code: Vec<String>,
     /// Define NAME, whatever the program says, repeatable
     #[arg(short = 'D', long = "define", value_name = "NAME=EXPR", value_parser = assignment)]
@@ -136,9 +168,9 @@ pub struct Program {
 /// Which object, and which part of its space.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 pub struct Subject {
-    /// The object; by default the last `gob_` that is defined
-    #[arg(long, value_name = "NAME")]
-    pub object: Option<String>,
+    /// The object; by default the last `gob_` that is defined. Repeatable: a picture shows several
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub object: Vec<String>,
     /// Hold a coordinate at a value (a section), repeatable
     #[arg(long, value_name = "xN=VALUE", value_parser = section, value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Section>,
@@ -165,9 +197,34 @@ pub struct Look {
     /// Pixels of a picture, of each picture in a sheet; by default a size that suits the object
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
-    /// Where the camera stands, in degrees: around the object from its front, and above it; instead of --view
-    #[arg(long, value_name = "AROUND,ABOVE", value_parser = angles, conflicts_with = "view", allow_hyphen_values = true)]
-    pub camera: Option<[f64; 2]>,
+    /// Where the camera stands, in degrees: around the object from its front, and above it; or the place of the eye, X,Y,Z;
+    /// instead of --view
+    #[arg(long, value_name = "AROUND,ABOVE", value_parser = camera, conflicts_with = "view", allow_hyphen_values = true)]
+    pub camera: Option<Camera>,
+    /// Whether what is farther looks smaller; by default with --camera, not with --view
+    #[arg(long, value_name = "RAYS")]
+    pub projection: Option<Rays>,
+    /// Where the light stands, in degrees: around the object from its front, and above it; by default at the camera's left shoulder
+    #[arg(long, value_name = "AROUND,ABOVE", value_parser = angles, allow_hyphen_values = true)]
+    pub light: Option<[f64; 2]>,
+    /// The second, weaker light (default on)
+    #[arg(long, value_name = "SWITCH")]
+    pub fill: Option<Switch>,
+    /// Shadows of the light (default on)
+    #[arg(long, value_name = "SWITCH")]
+    pub shadow: Option<Switch>,
+    /// The same as --shadow off
+    #[arg(long, conflicts_with = "shadow")]
+    pub no_shadow: bool,
+    /// Ambient occlusion: hollows and corners get less light from the sky (default off)
+    #[arg(long, value_name = "SWITCH", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
+    pub occlusion: Option<Switch>,
+    /// What stands behind the object: a colour (white, black, #ffcc00) or `transparent`
+    #[arg(long, value_name = "COLOUR", value_parser = background)]
+    pub background: Option<Ground>,
+    /// Cut a solid at a plane, repeatable: x1=0 takes away the half on the side of the camera, x1<0 keeps that half
+    #[arg(long, value_name = "xN=VALUE", value_parser = cut, allow_hyphen_values = true)]
+    pub cut: Vec<Cutting>,
     /// The side that the camera looks from
     #[arg(long, value_name = "SIDE", value_parser = views())]
     pub view: Option<String>,
@@ -245,6 +302,9 @@ pub struct Run {
     /// How results are made
     #[command(flatten)]
     pub making: Making,
+    /// The options that come from the file of settings
+    #[arg(skip)]
+    pub settings: Vec<String>,
 }
 
 fn formats() -> impl TypedValueParser<Value = Format> {
@@ -304,6 +364,50 @@ pub fn option_values(name: &str) -> Vec<String> {
     values.iter().map(|value| value.get_name().to_owned()).collect()
 }
 
+/// What is wrong with an option, in one line: what was found, what would do, what was probably meant.
+#[must_use]
+pub fn words_of(error: clap::Error) -> String {
+    let text = with_near(error, &Options::command()).to_string();
+    let mut lines = text.lines().map(str::trim);
+    let first = lines.next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    let more = lines.filter_map(|line| {
+        let values = line.strip_prefix('[').and_then(|line| line.strip_suffix(']'));
+        values.or_else(|| line.strip_prefix("tip: ").filter(|tip| tip.contains("similar")))
+    });
+    [first].into_iter().chain(more.map(str::to_owned)).collect::<Vec<_>>().join("; ")
+}
+
+/// The error with the value or the option that is nearest by our own measure, which counts slips of the keyboard.
+#[must_use]
+pub fn with_near(mut error: clap::Error, command: &clap::Command) -> clap::Error {
+    let word = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.clone()),
+        _ => None,
+    };
+    match error.kind() {
+        ErrorKind::InvalidValue => {
+            let (Some(value), Some(ContextValue::Strings(valid))) =
+                (word(ContextKind::InvalidValue), error.get(ContextKind::ValidValue))
+            else {
+                return error;
+            };
+            if let Some(near) = near(&value, valid.iter().map(String::as_str)).map(str::to_owned) {
+                error.insert(ContextKind::SuggestedValue, ContextValue::String(near));
+            }
+        }
+        ErrorKind::UnknownArgument => {
+            let stray = word(ContextKind::InvalidArg).unwrap_or_default();
+            let name = stray.strip_prefix("--").and_then(|stray| stray.split('=').next()).unwrap_or_default();
+            let names = command.get_arguments().filter_map(clap::Arg::get_long);
+            if let Some(near) = near(name, names).filter(|_| !name.is_empty()) {
+                error.insert(ContextKind::SuggestedArg, ContextValue::String(format!("--{near}")));
+            }
+        }
+        _ => {}
+    }
+    error
+}
+
 impl Making {
     /// These with the options in `words` laid over them: `--resolution 64 --view top`. Of two that exclude each other, the
     /// one said last stays.
@@ -326,7 +430,7 @@ impl Making {
             options.making.look.view = None;
         }
         let read = options.try_update_from(words.split_whitespace());
-        read.map_err(|error| error.to_string().trim_start_matches("error: ").lines().next().unwrap_or("").to_owned())?;
+        read.map_err(words_of)?;
         Ok(options.making)
     }
 }
@@ -340,6 +444,9 @@ pub struct Info {
     /// Only this object
     #[arg(long, value_name = "NAME")]
     pub object: Option<String>,
+    /// Instead: where settings, history and journals lie
+    #[arg(long, conflicts_with_all = ["file", "code", "define", "object"])]
+    pub paths: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

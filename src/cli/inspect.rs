@@ -1,22 +1,28 @@
 //! `yont info` and `yont measure`: what the model knows of objects, as lines or as JSON.
 
-use serde_json::{Value, json};
+use std::path::PathBuf;
 
-use crate::model::Session;
+use serde_json::{Map, Value, json};
+
+use crate::host;
 use crate::model::request::{self, Info};
+use crate::model::{Session, settings};
 
 use super::arguments::{self, Making};
 use super::console::Console;
 use super::engine::Signals;
 use super::make::view;
-use super::session;
 use super::status::Status;
+use super::{config, session};
 
 /// `yont info FILE`.
 ///
 /// # Errors
 /// The status of what ended the command early.
 pub fn info(console: &Console, signals: &Signals, options: &arguments::Info) -> Result<Status, Status> {
+    if options.paths {
+        return paths(console, options.json);
+    }
     let (mut session, _) = session::required(console, signals, &options.program)?;
     if let Some(name) = &options.object
         && let Err(diagnostics) = session.object(Some(name))
@@ -34,6 +40,24 @@ pub fn info(console: &Console, signals: &Signals, options: &arguments::Info) -> 
         console.print(&json!({ "objects": objects }).to_string())?;
     } else {
         wanted.into_iter().try_for_each(|info| console.print(&info.to_string()))?;
+    }
+    Ok(Status::Done)
+}
+
+/// `yont info --paths`: where things lie, whether they are there yet or not.
+fn paths(console: &Console, json: bool) -> Result<Status, Status> {
+    let state = host::state_folder();
+    let inside = |name: &str| state.as_ref().map(|folder| folder.join(name));
+    let all = [("settings", config::file()), ("history", inside("history")), ("sessions", inside("sessions"))];
+    let shown = |path: &Option<PathBuf>| path.as_ref().map(|path| path.display().to_string());
+    if json {
+        let all: Map<String, Value> = all.iter().map(|(name, path)| ((*name).into(), json!(shown(path)))).collect();
+        console.print(&Value::Object(all).to_string())?;
+        return Ok(Status::Done);
+    }
+    for (name, path) in &all {
+        let words = shown(path).unwrap_or_else(|| "nowhere: there is no home folder".into());
+        console.print(&format!("{name:<9} {words}"))?;
     }
     Ok(Status::Done)
 }
@@ -56,7 +80,7 @@ pub fn measure(console: &Console, signals: &Signals, options: &arguments::Measur
 pub fn measure_one(console: &Console, session: &mut Session, making: &Making, json: bool) -> Result<Status, Status> {
     let measured = {
         let _progress = console.progress(session.interrupt(), "measuring");
-        request::measure(session, &view(making))
+        settings::defaults(session).and_then(|defaults| request::measure(session, &view(making, &defaults.view)))
     };
     match measured {
         Ok(measured) if json => console.print(&measured.json().to_string()).map(|()| Status::Done),

@@ -1,10 +1,12 @@
 //! The command line: options in, requests to the model, results and exit statuses out. Computes nothing.
 
 pub mod arguments;
+pub mod config;
 pub mod console;
 pub mod engine;
 pub mod inspect;
 pub mod make;
+pub mod mistakes;
 pub mod progress;
 pub mod run;
 pub mod sample;
@@ -13,6 +15,7 @@ pub mod show;
 pub mod status;
 pub mod text;
 pub mod values;
+pub mod words;
 
 use std::ffi::OsString;
 use std::time::Instant;
@@ -42,13 +45,20 @@ pub struct Prompt {
 
 /// The whole program: `arguments` as the shell gives them, `prompt` for a run without a program.
 pub fn main(arguments: impl IntoIterator<Item = OsString>, prompt: fn(Prompt) -> Status) -> Status {
-    match Cli::try_parse_from(arguments).and_then(unmixed) {
-        Ok(cli) => engine::run(cli.common.threads, move |signals| timed(cli, signals, prompt)),
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let read = match Cli::try_parse_from(&arguments).and_then(unmixed) {
+        Ok(cli) => cli,
         Err(error) => {
+            let error = mistakes::explained(error, &arguments);
             // Help that nobody reads any more is no error either.
             let _ = error.print();
-            if error.use_stderr() { Status::Usage } else { Status::Done }
+            return if error.use_stderr() { Status::Usage } else { Status::Done };
         }
+    };
+    let cli = if read.common.no_config { Ok(read) } else { config::applied(read, arguments) };
+    match cli {
+        Ok(cli) => engine::run(cli.common.threads, move |signals| timed(cli, signals, prompt)),
+        Err(refused) => refused,
     }
 }
 
@@ -66,6 +76,8 @@ fn timed(cli: Cli, signals: &Signals, prompt: fn(Prompt) -> Status) -> Status {
     let console = Console::new(&cli.common);
     let start = Instant::now();
     let status = dispatch(cli, &console, signals, prompt).unwrap_or_else(|ended| ended);
+    let costs = signals.interrupt.costs();
+    costs.phases.iter().for_each(|(name, time)| console.timing(name, *time));
     console.timing("all", start.elapsed());
     status
 }
@@ -74,7 +86,7 @@ fn timed(cli: Cli, signals: &Signals, prompt: fn(Prompt) -> Status) -> Status {
 fn dispatch(cli: Cli, console: &Console, signals: &Signals, prompt: fn(Prompt) -> Status) -> Result<Status, Status> {
     match cli.command {
         None => run::run(console, signals, cli.run, prompt),
-        Some(Command::Run(run)) => run::run(console, signals, run, prompt),
+        Some(Command::Run(run)) => run::run(console, signals, *run, prompt),
         Some(Command::Info(info)) => inspect::info(console, signals, &info),
         Some(Command::Measure(measure)) => inspect::measure(console, signals, &measure),
         Some(Command::Sample(sample)) => sample::sample(console, signals, &sample),

@@ -7,12 +7,14 @@ use crate::diagnostic::Diagnostic;
 use crate::host::{self, Disk, FileError, Host};
 use crate::limits::Limits;
 use crate::model::environment::is_setting;
+use crate::model::settings;
 use crate::model::{Event, Outcome, Session};
 use crate::syntax::Mode;
 
 use super::arguments::Program;
 use super::console::Console;
 use super::engine::Signals;
+use super::mistakes;
 use super::status::Status;
 use super::text::near;
 
@@ -55,7 +57,7 @@ pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(
         finish(console, &session, outcome)?;
     }
     if let Some(file) = &program.file {
-        let text = read_text(file).map_err(|error| console.file_error(&error))?;
+        let text = read_text(file).map_err(|error| unread_program(console, file, &error))?;
         events.extend(feed(console, &mut session, &name(file), &text)?);
     }
     for code in &program.code {
@@ -68,9 +70,19 @@ pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(
     }
 }
 
+/// Tells of a program that could not be read, and of what its name may have been meant to be.
+pub fn unread_program(console: &Console, file: &Path, error: &FileError) -> Status {
+    let told = error.diagnostic();
+    let missing = error.reason == host::Reason::Missing;
+    let tip = file.to_str().filter(|_| missing).and_then(mistakes::other_command);
+    let near = tip.or_else(|| Some(format!("did you mean `{}`?", mistakes::other_file(file).filter(|_| missing)?)));
+    console
+        .report(&Default::default(), &[near.into_iter().fold(told, |told, tip| Diagnostic { help: vec![tip], ..told })])
+}
+
 /// A warning for a definition of the command line that changes nothing: most likely its name is misspelt.
 fn unread(session: &Session, name: &str) -> Option<Diagnostic> {
-    let serves = name.starts_with("gob_") || is_system(name) || is_setting(name);
+    let serves = name.starts_with("gob_") || is_system(name) || is_setting(name) || settings::is_setting(name);
     if serves || session.deps(name).is_some_and(|deps| !deps.readers.is_empty()) {
         return None;
     }

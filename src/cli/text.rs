@@ -8,6 +8,7 @@ use crate::builtins;
 use crate::diagnostic::near::{Candidate, suggest};
 use crate::host::{Disk, Host};
 use crate::limits::Limits;
+use crate::model::settings;
 use crate::source::SourceMap;
 use crate::syntax::print::format;
 
@@ -16,13 +17,17 @@ use super::console::Console;
 use super::engine::Signals;
 use super::session::{self, read_text};
 use super::status::Status;
+use super::words;
 
 /// `yont check FILE...`: each file is read on its own, and everything wrong with it is told.
 pub fn check(console: &Console, signals: &Signals, options: &Check) -> Result<Status, Status> {
     let mut status = Status::Done;
     for file in &options.files {
         let program = Program { file: Some(file.clone()), ..Program::default() };
-        status = status.or(session::open(console, signals, &program).err().unwrap_or_default());
+        status = status.or(match session::open(console, signals, &program) {
+            Ok((session, _)) => console.report(session.sources(), &settings::check(&session)),
+            Err(failed) => failed,
+        });
     }
     Ok(status)
 }
@@ -67,25 +72,33 @@ pub fn doc(console: &Console, signals: &Signals, options: &Doc) -> Result<Status
         console.print(&overview())?;
         return Ok(Status::Done);
     };
+    let mut names = Vec::new();
     if let Some(file) = &options.file {
         let program = Program { file: Some(file.clone()), ..Program::default() };
         let (session, _) = session::open(console, signals, &program)?;
-        if let Some(words) = session.doc(name) {
-            console.print(&words)?;
+        if session.is_defined(name) {
+            let doc = session.doc(name).unwrap_or_else(|| "No comment stands right above its definition.".into());
+            let doc: Vec<String> = doc.lines().map(|line| format!("    {}", line.trim())).collect();
+            console.print(&format!("{}\n{}", session.describe(name), doc.join("\n")))?;
             return Ok(Status::Done);
         }
+        names = session.names();
     }
-    match builtins::find(name) {
-        Some(builtin) => console.print(&explain(builtin)).map(|()| Status::Done),
-        None => Ok(console.usage(&unknown(name))),
+    match builtins::find(name).map(explain).or_else(|| words::explain(name)) {
+        Some(told) => console.print(&told).map(|()| Status::Done),
+        None => Ok(console.refuse(&unknown(name, &names, options.file.is_some()))),
     }
 }
 
-fn unknown(name: &str) -> String {
-    let upper = name.to_uppercase();
-    match near(&upper, builtins::all().flat_map(builtins::Builtin::names)) {
-        Some(other) => format!("there is no built-in function `{name}`; did you mean `{other}`?"),
-        None => format!("there is no built-in function `{name}`; `yont doc` lists them"),
+fn unknown(name: &str, names: &[String], with_file: bool) -> String {
+    let known = builtins::all().flat_map(builtins::Builtin::names).chain(words::WORDS.iter().map(|word| word.0));
+    let known = known.map(|known: &str| known);
+    match near(name, names.iter().map(String::as_str).chain(known)) {
+        Some(other) => format!("there is nothing called `{name}`; did you mean `{other}`?"),
+        None if with_file => format!("neither the program nor the language has a `{name}`"),
+        None => {
+            format!("the language has no `{name}`; `yont doc` lists its functions, --file FILE adds those of a program")
+        }
     }
 }
 

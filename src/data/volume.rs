@@ -158,7 +158,7 @@ impl Volume {
 }
 
 /// Whether the first `dimension` directions are finite and independent within the first `dimension` coordinates.
-fn spans(placement: &Placement, dimension: usize) -> bool {
+pub(super) fn spans(placement: &Placement, dimension: usize) -> bool {
     let finite = placement.origin.iter().chain(placement.directions.iter().flatten()).all(|v| v.is_finite());
     finite && super::place::Locator::new(placement, dimension).is_some()
 }

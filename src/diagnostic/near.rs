@@ -4,6 +4,22 @@ use std::cmp::Ordering;
 
 use strsim::{damerau_levenshtein, jaro_winkler};
 
+/// What a word of other languages is written as here, for people who come from there.
+#[must_use]
+pub fn foreign(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "let" | "var" | "const" | "set" | "real" | "float" | "double" | "int" => {
+            "a definition needs no word before it: `a = 3;`"
+        }
+        "def" | "function" | "fn" | "func" | "module" | "lambda" => "a function is defined as `f(p) = ...;`",
+        "import" | "use" | "require" | "from" => "`INCLUDE \"file.geo\";` takes the definitions of another file",
+        "return" => "the value of a body is what it assigns to its own name",
+        "echo" | "display" | "puts" | "println" => "`PRINT e;` shows a value",
+        "elif" | "elsif" => "write `ELSE IF`",
+        _ => return None,
+    })
+}
+
 /// A name that may be meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Candidate<'a> {

@@ -39,20 +39,22 @@ pub fn write(parts: &[Part<'_>], name: &str, out: &mut impl Write) -> io::Result
 ///
 /// # Errors
 /// As [`write()`]; also when there is no frame or `delay` is not above 0.
-pub fn write_animation(frames: &[Part<'_>], delay: f64, name: &str, out: &mut impl Write) -> io::Result<()> {
-    if frames.is_empty() || !(delay > 0. && delay.is_finite()) {
+pub fn write_animation(frames: &[Vec<Part<'_>>], delay: f64, name: &str, out: &mut impl Write) -> io::Result<()> {
+    if frames.iter().all(Vec::is_empty) || !(delay > 0. && delay.is_finite()) {
         return Err(refuse("an animation needs a frame and a time above 0 for each"));
     }
     let mut file = File::default();
     let mut nodes = Vec::with_capacity(frames.len());
     for (i, frame) in frames.iter().enumerate() {
         let scale = if i == 0 { 1. } else { 0. };
-        nodes.push(file.part(frame, &format!("{}-{i:03}", frame.name), Some([scale; 3]))?);
+        for part in frame {
+            nodes.push((i, file.part(part, &format!("{}-{i:03}", part.name), Some([scale; 3]))?));
+        }
     }
     if frames.len() > 1 {
-        file.animate(&nodes, delay);
+        file.animate(&nodes, frames.len(), delay);
     }
-    file.finish(nodes, name, out)
+    file.finish(nodes.into_iter().map(|node| node.1).collect(), name, out)
 }
 
 /// A piece of the binary chunk, written only once all lengths are known.
@@ -231,12 +233,12 @@ impl<'a> File<'a> {
         })
     }
 
-    /// Gives each node the keys that show it for its own time and hide it otherwise.
-    fn animate(&mut self, nodes: &[Index<json::Node>], delay: f64) {
+    /// Gives each node, told with its frame, the keys that show it for the time of that frame and hide it otherwise.
+    fn animate(&mut self, nodes: &[(usize, Index<json::Node>)], count: usize, delay: f64) {
         use json::animation::{Animation, Channel, Interpolation, Property, Sampler, Target};
         let (mut channels, mut samplers) = (Vec::new(), Vec::new());
-        for (i, &node) in nodes.iter().enumerate() {
-            let (times, scales) = keys(i, nodes.len(), delay);
+        for (i, &(frame, node)) in nodes.iter().enumerate() {
+            let (times, scales) = keys(frame, count, delay);
             let range = Some((vec![times[0]], vec![times[times.len() - 1]]));
             let layout = Layout { range, ..Layout::floats(times.len(), Type::Scalar) };
             let input = self.piece(Piece::Floats(times), layout);

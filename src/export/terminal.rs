@@ -185,7 +185,8 @@ mod tests {
 
     #[test]
     fn base64_is_that_of_the_rfc() {
-        let cases = [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("fooba", "Zm9vYmE=")];
+        let cases =
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("fooba", "Zm9vYmE=")];
         for (plain, expected) in cases {
             assert_eq!(base64(plain.as_bytes()), expected);
         }
@@ -193,7 +194,8 @@ mod tests {
 
     #[test]
     fn the_nearest_colours_are_the_exact_ones_where_there_are_such() {
-        let cases = [([0, 0, 0], 16), ([255, 255, 255], 231), ([255, 0, 0], 196), ([95, 135, 175], 67), ([128, 128, 128], 244)];
+        let cases =
+            [([0, 0, 0], 16), ([255, 255, 255], 231), ([255, 0, 0], 196), ([95, 135, 175], 67), ([128, 128, 128], 244)];
         for (colour, expected) in cases {
             assert_eq!(nearest(colour), expected, "{colour:?}");
         }

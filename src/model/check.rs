@@ -5,7 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::builtins::{self, Meaning};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::syntax::tree::{Body, Expr, GeometricType, Name, Statement, StatementKind};
+use crate::syntax::tree::{Body, Expr, GeometricType, Ident, Name, Statement, StatementKind};
 
 use super::definition::Definition;
 use super::errors;
@@ -40,7 +40,10 @@ pub fn form(statement: &Statement) -> Option<Diagnostic> {
             }
             let mut seen = FxHashSet::default();
             let twice = parameters.iter().find(|p| !seen.insert(p.name.name.clone()));
-            twice.map(|p| errors::parameter_twice(&p.name.name, p.name.span)).or_else(|| loops_in(body))
+            twice
+                .map(|p| errors::parameter_twice(&p.name.name, p.name.span))
+                .or_else(|| loops_in(body))
+                .or_else(|| without_result(name, body))
         }
         StatementKind::Define { body, .. } => loops_in(body),
         StatementKind::Type { subject, kind } => type_form(&subject.name, subject.span, kind),
@@ -87,6 +90,16 @@ fn misplaced(block: &[Statement]) -> Option<Diagnostic> {
         StatementKind::Define { .. } | StatementKind::Element { .. } | StatementKind::Failed { .. } => None,
         _ => Some(errors::not_in_a_body(statement)),
     })
+}
+
+/// A body that assigns to other names only. Whether it always assigns to its own shows when it is called.
+fn without_result(own: &Ident, body: &Body) -> Option<Diagnostic> {
+    match body {
+        Body::Block(block) if !names::assigned(block).contains(&own.name) => {
+            Some(errors::no_result(&own.name, own.span))
+        }
+        _ => None,
+    }
 }
 
 fn loops_in(body: &Body) -> Option<Diagnostic> {

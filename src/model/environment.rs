@@ -54,6 +54,7 @@ impl Axis {
 
     /// The values that this coordinate takes one after the other: frames of T, columns and rows of V and W, sections of G and C; the
     /// single value of CONSTANT. Nothing for the axes of space, and where the range is missing. A negative delta counts backwards.
+    /// What would take more than `limit` ends behind one more.
     #[must_use]
     pub fn steps(&self, limit: usize) -> Vec<f64> {
         match (&self.role, self.range) {

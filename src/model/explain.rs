@@ -159,7 +159,10 @@ impl Session {
                 None => systems.push((words, vec![title])),
             }
         }
-        systems.into_iter().map(|(words, titles)| format!("  set operations of {}: {words}", titles.join(", "))).collect()
+        systems
+            .into_iter()
+            .map(|(words, titles)| format!("  set operations of {}: {words}", titles.join(", ")))
+            .collect()
     }
 
     /// Which coordinates the sides of each `@` share.

@@ -4,7 +4,7 @@ use rustc_hash::FxHashSet;
 
 use crate::builtins;
 use crate::source::Span;
-use crate::syntax::tree::{Body, ChainOp, Expr, ExprKind, FoldOp, Mapping, Name, Statement, StatementKind};
+use crate::syntax::tree::{Body, ChainOp, Expr, ExprKind, FoldOp, Ident, Mapping, Name, Statement, StatementKind};
 
 /// The name that holds the parameter of the R-functions.
 pub const R_ALPHA: &str = "r_alpha";
@@ -135,7 +135,7 @@ impl Walk {
                 self.exprs(indices);
             }
             ExprKind::Call { callee, arguments } => {
-                self.call(&callee.name, callee.span, arguments.len());
+                self.call(callee, e.span, arguments.len());
                 self.exprs(arguments);
             }
             ExprKind::Fold { op, index, from, to, body } => {
@@ -169,17 +169,18 @@ impl Walk {
         }
     }
 
-    fn call(&mut self, name: &Name, span: Span, arguments: usize) {
+    fn call(&mut self, callee: &Ident, whole: Span, arguments: usize) {
+        let name = &callee.name;
         if builtins::find(name).is_some() {
-            self.names.builtins.push((name.clone(), span, arguments));
+            self.names.builtins.push((name.clone(), whole, arguments));
             let upper = name.to_ascii_uppercase();
             self.names.uses_system |= upper == "UNION" || upper == "INTERSECTION";
             return;
         }
         if !self.bound.iter().any(|b| b == name) {
-            self.names.calls.push((name.clone(), span, arguments));
+            self.names.calls.push((name.clone(), whole, arguments));
         }
-        self.read(name, span);
+        self.read(name, callee.span);
     }
 
     fn block(&mut self, block: &[Statement]) {

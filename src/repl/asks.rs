@@ -21,7 +21,9 @@ pub fn show(repl: &mut Repl, name: &str) -> Flow {
     let Some(drawing) = show::drawing(images) else {
         return match images {
             Some(Images::Off) => repl.refuse("pictures are off: `:set images auto`, or `:render FILE.png`"),
-            _ => repl.refuse("this terminal shows no pictures: `:set images half` tries, `:render FILE.png` writes one"),
+            _ => {
+                repl.refuse("this terminal shows no pictures: `:set images half` tries, `:render FILE.png` writes one")
+            }
         };
     };
     let making = repl.looking_at(name);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::cli::arguments::Making;
-use crate::cli::{make, session, status::Status, text};
+use crate::cli::{make, session, status::Status, text, words};
 use crate::host::{Disk, Host};
 use crate::model::request::{FORMATS, Kind, Output};
 use crate::{builtins, cli};
@@ -149,7 +149,47 @@ pub fn run(repl: &mut Repl, line: &str) -> Flow {
     }
 }
 
+/// Words of other programs for what a command does here.
+const OTHER_WORDS: [(&str, &str); 16] = [
+    ("exit", "quit"),
+    ("bye", "quit"),
+    ("open", "load"),
+    ("run", "load"),
+    ("write", "save"),
+    ("export", "mesh"),
+    ("plot", "show"),
+    ("draw", "show"),
+    ("view", "show"),
+    ("picture", "render"),
+    ("ls", "list"),
+    ("vars", "list"),
+    ("clear", "reset"),
+    ("info", "explain"),
+    ("type", "explain"),
+    ("expand", "formula"),
+];
+
+/// The command that was meant by a line without its colon: `help`, `exit()`, `load ball.geo`.
+#[must_use]
+pub fn without_colon(line: &str) -> Option<String> {
+    let plain = line.trim_end_matches([';', ' ']).trim_end_matches("()");
+    if plain == "?" {
+        return Some(":help".into());
+    }
+    let (word, rest) = plain.split_once(char::is_whitespace).unwrap_or((plain, ""));
+    let name =
+        TABLE.iter().map(|command| command.name).chain(["exit", "bye", "ls", "vars", "clear"]).find(|n| *n == word)?;
+    let name = OTHER_WORDS.iter().find(|other| other.0 == name).map_or(name, |other| other.1);
+    let said = rest.trim_start();
+    let words =
+        said.is_empty() || said.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '"' | '.' | '/' | '_'));
+    words.then(|| format!(":{name} {said}").trim_end().to_owned())
+}
+
 fn unknown(name: &str) -> String {
+    if let Some((_, meant)) = OTHER_WORDS.iter().find(|(other, _)| *other == name) {
+        return format!("there is no command `:{name}`; it is `:{meant}`");
+    }
     match text::near(name, TABLE.iter().map(|command| command.name)) {
         Some(other) => format!("there is no command `:{name}`; did you mean `:{other}`?"),
         None => format!("there is no command `:{name}`; `:help` lists them"),
@@ -187,17 +227,17 @@ fn line(command: &Command, width: usize) -> String {
 
 /// `:doc NAME`, `NAME?`.
 pub fn doc(repl: &mut Repl, name: &str) -> Flow {
-    if let Some(words) = repl.session.doc(name) {
-        return repl.show(&words);
+    if repl.session.is_defined(name) {
+        let doc = repl.session.doc(name).unwrap_or_else(|| "No comment stands right above its definition.".into());
+        let doc: Vec<String> = doc.lines().map(|line| format!("    {}", line.trim())).collect();
+        return repl.show(&format!("{}\n{}", repl.session.describe(name), doc.join("\n")));
     }
     match builtins::find(name) {
-        _ if repl.session.is_defined(name) => repl.show(&repl.session.describe(name)),
         Some(builtin) => repl.show(&text::explain(builtin)),
-        None if repl.session.is_defined(name) => {
-            let line = repl.session.describe(name);
-            repl.show(&format!("{line}\n    No comment stands right above its definition."))
-        }
-        None => unknown_name(repl, name),
+        None => match words::explain(name) {
+            Some(told) => repl.show(&told),
+            None => unknown_name(repl, name),
+        },
     }
 }
 
@@ -252,7 +292,7 @@ fn first_line(text: &str) -> String {
 fn load(repl: &mut Repl, file: &str) -> Flow {
     match session::read_text(Path::new(unquoted(file))) {
         Ok(text) => repl.feed(unquoted(file), &text, crate::syntax::Mode::Script),
-        Err(error) => Flow::Failed(repl.console.file_error(&error)),
+        Err(error) => Flow::Failed(session::unread_program(&repl.console, Path::new(unquoted(file)), &error)),
     }
 }
 
@@ -328,15 +368,22 @@ fn settings(making: &Making) -> String {
     let mut say = |name: &str, value: Option<String>| {
         lines.extend(value.map(|value| format!("{name} {value}").trim_end().to_owned()))
     };
-    say("object", making.subject.object.clone());
+    say("object", (!making.subject.object.is_empty()).then(|| making.subject.object.join(",")));
     say("resolution", making.fineness.resolution.map(|n| n.to_string()));
     say("cell", making.fineness.cell.map(|length| length.to_string()));
     say("size", making.look.size.map(|size| format!("{}x{}", size.width, size.height)));
     say("view", making.look.view.clone());
-    say("camera", making.look.camera.map(|[around, above]| format!("{around},{above}")));
+    say("camera", making.look.camera.as_ref().map(ToString::to_string));
     say("palette", making.look.palette.clone());
     say("supersample", making.look.supersample.map(|n| n.to_string()));
     say("axes", making.look.axes.then(String::new));
+    say("projection", making.look.projection.map(|rays| format!("{rays:?}").to_lowercase()));
+    let switch = |switch: cli::arguments::Switch| if switch.is_on() { "on" } else { "off" }.to_owned();
+    say("light", making.look.light.map(|[around, above]| format!("{around},{above}")));
+    say("fill", making.look.fill.map(switch));
+    say("shadow", if making.look.no_shadow { Some("off".into()) } else { making.look.shadow.map(switch) });
+    say("occlusion", making.look.occlusion.map(switch));
+    say("background", making.look.background.map(|ground| ground.to_string()));
     say(
         "slices",
         making.look.slices.map(|slices| format!("x{}={}:{}:{}", slices.coordinate, slices.lo, slices.hi, slices.count)),
@@ -344,6 +391,9 @@ fn settings(making: &Making) -> String {
     say("images", making.display.images.map(|images| format!("{images:?}").to_lowercase()));
     say("frames", making.motion.frames.map(|n| n.to_string()));
     say("fps", making.motion.fps.map(|n| n.to_string()));
+    for cut in &making.look.cut {
+        say("cut", Some(cut.to_string()));
+    }
     for section in &making.subject.at {
         say("at", Some(format!("x{}={}", section.coordinate, section.value)));
     }

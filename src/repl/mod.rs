@@ -26,7 +26,7 @@ use crate::cli::status::Status;
 use crate::host::{FileError, Reason, reason, state_folder};
 use crate::interrupt::Costs;
 use crate::limits::Limits;
-use crate::model::request::headline;
+use crate::model::request::{View, headline};
 use crate::model::{Event, Session};
 use crate::syntax::Mode;
 use crate::syntax::scan::{Scanner, TokenKind};
@@ -185,6 +185,10 @@ impl Repl {
                 self.comments = documented.trim_end().to_owned() + "\n";
                 return Flow::Go;
             }
+            None if !self.session.is_defined(first_word(trimmed)) && commands::without_colon(trimmed).is_some() => {
+                let meant = commands::without_colon(trimmed).unwrap_or_default();
+                self.refuse(&format!("commands begin with a colon: `{meant}`"))
+            }
             None => {
                 self.inputs += 1;
                 let name = format!("<input {}>", self.inputs);
@@ -228,7 +232,7 @@ impl Repl {
 
     fn show_object(&mut self, name: &str) -> Result<(), Status> {
         let making = self.looking_at(name);
-        match headline(&mut self.session, &view(&making)) {
+        match headline(&mut self.session, &view(&making, &View::default())) {
             Ok(line) => self.console.print(&line)?,
             Err(_) => self.console.print(&self.session.describe(name))?,
         }
@@ -239,7 +243,7 @@ impl Repl {
     fn looking_at(&self, name: &str) -> Making {
         let mut making = self.making.clone();
         if !name.is_empty() {
-            making.subject.object = Some(name.to_owned());
+            making.subject.object = vec![name.to_owned()];
         }
         making
     }
@@ -296,6 +300,10 @@ impl Repl {
     }
 }
 
+fn first_word(text: &str) -> &str {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default()
+}
+
 /// Whether a text holds comments and nothing else.
 fn is_comment(text: &str) -> bool {
     Scanner::new(text, 0, text.len()).all(|token| token.kind == TokenKind::Comment)
@@ -307,6 +315,7 @@ fn last_value(typed: &str, shown: &str, number: Option<f64>) -> String {
     match number {
         Some(number) if number.is_finite() => format!("({})", digits(number)),
         _ if single.contains(';') => format!("({shown})"),
+        _ if single.chars().all(|c| c.is_alphanumeric() || c == '_') => single.to_owned(),
         _ => format!("({single})"),
     }
 }

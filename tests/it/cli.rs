@@ -45,6 +45,7 @@ pub(crate) fn command(folder: &Path) -> assert_cmd::Command {
     // The guard against a hang, not a measure of speed.
     command.current_dir(folder).timeout(Duration::from_secs(300));
     command.env_remove("NO_COLOR").env("XDG_STATE_HOME", folder.join(".state"));
+    command.env("XDG_CONFIG_HOME", folder.join(".config"));
     command
 }
 
@@ -327,6 +328,14 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("cell", &["ball.geo", "-o", "-", "--format", "stl"], &["ball.geo", "-o", "-", "--format", "stl", "--cell", "0.7"]),
     ("size", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--size", "20x30"]),
     ("camera", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--camera", "120,-10"]),
+    ("projection", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--projection", "orthographic"]),
+    ("light", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--light", "-60,10"]),
+    ("fill", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--fill", "off"]),
+    ("shadow", SHADY, &["ball.geo", "-e", PLATE, "-o", "-", "--format", "png", "--shadow", "off"]),
+    ("no_shadow", SHADY, &["ball.geo", "-e", PLATE, "-o", "-", "--format", "png", "--no-shadow"]),
+    ("occlusion", SHADY, &["ball.geo", "-e", PLATE, "-o", "-", "--format", "png", "--occlusion"]),
+    ("background", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--background", "transparent"]),
+    ("cut", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--cut", "x1<0.5"]),
     ("view", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--view", "top"]),
     (
         "palette",
@@ -348,15 +357,22 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("verbose", &["ball.geo", "-o", "a.stl"], &["ball.geo", "-o", "a.stl", "-v"]),
     ("color", &["none.geo"], &["none.geo", "--color", "always"]),
     ("diagnostics", &["none.geo"], &["none.geo", "--diagnostics", "json"]),
+    ("images", &["ball.geo"], &["ball.geo", "--images", "half"]),
+    ("no_config", MOVING, &["growing.geo", "-o", "-", "--format", "gif", "--size", "32x32", "--no-config"]),
     ("strict", &["-e", "r = 1; q = r; r = 2;"], &["-e", "r = 1; q = r; r = 2;", "-W"]),
 ];
 const PICTURE: &[&str] = &["ball.geo", "-o", "-", "--format", "png"];
+/// A plate below the ball, which throws its shadow on it.
+const PLATE: &str = "gob_plate = (x3 + 1.95 & -1.85 - x3) | gob_ball;";
+const SHADY: &[&str] = &["ball.geo", "-e", PLATE, "-o", "-", "--format", "png"];
 const MOVING: &[&str] = &["growing.geo", "-o", "-", "--format", "gif", "--size", "32x32"];
 
 #[test]
 fn every_option_does_something() {
     let folder =
         folder(&[("ball.geo", BALL.as_bytes()), ("growing.geo", GROWING.as_bytes()), ("disc.geo", DISC.as_bytes())]);
+    fs::create_dir_all(folder.path().join(".config/yont")).expect("a folder");
+    fs::write(folder.path().join(".config/yont/config"), "fps 7\n").expect("room");
     for (name, without, with) in OPTIONS {
         let run = |arguments: &[&str]| {
             command(folder.path()).args(arguments).write_stdin("1\n").output().expect("yont starts")

@@ -331,7 +331,7 @@ fn lying_files_get_their_error() {
         (
             "a.nrrd",
             nrrd(&head("3 1 1", "encoding: raw\nspace directions: none (1,0,0) (0,1,0)\n"), b"abc"),
-            "axis 1 of the grid is no direction",
+            "axis 1 is no direction of space",
         ),
         ("a.nrrd", nrrd(&head("2 1 1", "encoding: text\n"), b"1 x"), "line 7: `x` is not a number"),
         ("a.nrrd", nrrd(&head("2 1 1", "encoding: text\n"), b"1 300"), "`300` does not fit an unsigned byte"),

@@ -4,6 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use clap::Parser;
+use yont::cli::arguments::{Cli, Command, Making};
+use yont::cli::values::Assignment;
+use yont::diagnostic::render::{Colour, human};
 use yont::export::Part;
 use yont::host::{Host, Memory};
 use yont::interrupt::Interrupt;
@@ -42,11 +46,20 @@ fn teapot() -> Vec<u8> {
 
 /// A session that has accepted the script, and where it writes.
 pub fn loaded(name: &str, text: &str) -> (Session, Arc<Memory>) {
+    let (session, _, host) = defined(name, text, &[]);
+    (session, host)
+}
+
+/// A session that has accepted the script under the definitions of a command line, what it told, and where it writes.
+fn defined(name: &str, text: &str, define: &[Assignment]) -> (Session, Vec<Event>, Arc<Memory>) {
     let host = Arc::new(Memory::with(&[("examples/data/teapot.nrrd", &teapot())]));
     let mut session = Session::new(host.clone(), Limits::default(), Interrupt::default());
+    for assignment in define {
+        session.set(&assignment.name, &assignment.expression);
+    }
     let outcome = session.input(&format!("examples/{name}"), text, Mode::Script);
     assert!(outcome.accepted && outcome.diagnostics.is_empty(), "{name}: {}", messages(&outcome));
-    (session, host)
+    (session, outcome.events, host)
 }
 
 fn example(name: &str) -> (Session, Arc<Memory>) {
@@ -54,18 +67,41 @@ fn example(name: &str) -> (Session, Arc<Memory>) {
     loaded(&name, &text)
 }
 
-/// The rest of the line of the first comment that begins so.
-fn said<'a>(text: &'a str, what: &str) -> &'a str {
+/// What the comment at the top says under `Run:` and under `Expected:`.
+fn said(text: &str) -> (&str, &str) {
     let comment = text.split('}').next().expect("a comment at the top");
-    let line = comment.lines().map(str::trim).find_map(|line| line.strip_prefix(what));
-    line.unwrap_or_else(|| panic!("the first comment says no {what}\n{comment}")).trim()
+    let run = comment.split_once("Run:").unwrap_or_else(|| panic!("it says no Run:\n{comment}")).1;
+    run.split_once("Expected:").unwrap_or_else(|| panic!("it says no Expected:\n{comment}"))
+}
+
+/// The command lines under `Run:`, each as its words. `the same with` repeats the first with more, or with another `-o`; what
+/// follows a comma and a blank, or ` for `, is prose; `(n)` stands for an n in braces, which would end the comment.
+pub(crate) fn commands(text: &str) -> Vec<Vec<String>> {
+    let mut all: Vec<Vec<String>> = Vec::new();
+    for line in said(text).0.lines().map(str::trim).filter(|line| !line.is_empty()) {
+        let line = [", ", " for "].iter().fold(line, |line, end| line.split(end).next().unwrap_or(line));
+        let line = line.replace("(n)", "{n}");
+        let words =
+            |line: &str| line.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect::<Vec<_>>();
+        match line.strip_prefix("the same with ") {
+            None => all.push(words(&line)),
+            Some(more) => {
+                let (mut first, more) = (all.first().expect("a command before `the same`").clone(), words(more));
+                if let Some(at) = first.iter().position(|word| word == "-o" && more.contains(word)) {
+                    first.drain(at..at + 2);
+                }
+                all.push([first, more].concat());
+            }
+        }
+    }
+    all
 }
 
 /// The number that follows some words.
 fn number_after(text: &str, words: &str) -> Option<f64> {
     let rest = text.split_once(words)?.1.trim_start();
     let end = rest.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).unwrap_or(rest.len());
-    rest[..end].parse().ok()
+    rest[..end].trim_end_matches('.').parse().ok()
 }
 
 /// The bytes of what `-o` makes of an object.
@@ -83,28 +119,73 @@ fn coarse(resolution: usize) -> Options {
     options
 }
 
+/// Makes what a command makes, with cells and pixels that a test can wait for.
+fn runs_as_said(name: &str, text: &str, words: &[String]) {
+    let cli = Cli::try_parse_from(words).unwrap_or_else(|error| panic!("{words:?}: {error}"));
+    let (program, making) = (&cli.run.program, &cli.run.making);
+    assert_eq!(program.file.as_deref(), Some(Path::new(&format!("examples/{name}"))), "{name} is run as itself");
+    let (mut session, _, host) = defined(name, text, &program.define);
+    let defaults = yont::model::settings::defaults(&session).expect("settings");
+    let mut options = yont::cli::make::options(making, defaults);
+    options.view.cells = Cells::Along(32);
+    options.picture.size = Some((48, 36));
+    for to in &cli.run.output {
+        let files = made(&mut session, &host, to, &options);
+        assert!(!files.is_empty() && files.iter().all(|file| file.len() > 300), "{words:?}: more than a header");
+    }
+}
+
+/// The numbers that the comment expects, of the section that its `yont measure` takes, if it has one.
+fn measures_as_said(name: &str, text: &str, words: Option<&Vec<String>>) {
+    let expected = said(text).1;
+    let (volume, euler) = (number_after(expected, "volume ="), number_after(expected, "Euler characteristic"));
+    if volume.or(euler).is_none() {
+        return;
+    }
+    let mut making = Making::default();
+    let mut define = Vec::new();
+    if let Some(words) = words {
+        let cli = Cli::try_parse_from(words).unwrap_or_else(|error| panic!("{words:?}: {error}"));
+        let Some(Command::Measure(measure)) = cli.command else { panic!("{words:?} does not measure") };
+        (making.subject, making.fineness, define) = (measure.subject, measure.fineness, measure.program.define);
+    }
+    let (mut session, ..) = defined(name, text, &define);
+    let defaults = yont::model::settings::defaults(&session).expect("settings");
+    let mut view = yont::cli::make::view(&making, &defaults.view);
+    view.cells = Cells::Along(making.fineness.resolution.unwrap_or(64));
+    let measured = request::measure(&mut session, &view).unwrap_or_else(|e| panic!("{name}: {e:?}"));
+    let Dimension::Solid(measures, _) = measured.of else { panic!("{name} is no solid") };
+    if let Some(volume) = volume {
+        let near = (3e-3 * volume).max(2.0 * measures.volume.error);
+        assert!((measures.volume.value - volume).abs() < near, "{name}: {:?}, not {volume}", measures.volume);
+    }
+    if let Some(euler) = euler {
+        assert_eq!(measures.topology.euler as f64, euler, "{name}");
+    }
+}
+
+/// What the comment says is printed, between backquotes.
+fn prints_as_said(name: &str, text: &str) {
+    let expected: Vec<&str> = said(text).1.split('`').skip(1).step_by(2).collect();
+    let (_, events, _) = defined(name, text, &[]);
+    let printed: Vec<String> = events
+        .into_iter()
+        .filter_map(|event| if let Event::Printed(line) = event { Some(line) } else { None })
+        .collect();
+    assert_eq!(printed, expected, "{name} prints");
+}
+
 #[test]
 fn every_example_runs_as_it_says() {
     for (name, text) in examples() {
-        let (mut session, host) = loaded(&name, &text);
-        let words: Vec<&str> = said(&text, "Run:").split_whitespace().collect();
-        assert_eq!(words[..3], ["yont", &format!("examples/{name}"), "-o"], "{name} is run as itself");
-        let files = made(&mut session, &host, words[3], &coarse(32));
-        assert!(files.len() == 1 && files[0].len() > 500, "{name}: {} is more than a header", words[3]);
-        let expected = said(&text, "Expected:");
-        let claims = ["volume", "Euler characteristic"].map(|what| expected.contains(what));
-        if claims.contains(&true) {
-            let measured = request::measure(&mut session, &coarse(64).view).unwrap_or_else(|e| panic!("{name}: {e:?}"));
-            let Dimension::Solid(measures, _) = measured.of else { panic!("{name} is no solid") };
-            if claims[0] {
-                let volume = number_after(expected, "=").expect("volume ... = number");
-                assert!((measures.volume.value / volume - 1.0).abs() < 3e-3, "{name}: {:?}", measures.volume);
-            }
-            if claims[1] {
-                let euler = number_after(expected, "Euler characteristic").expect("a number");
-                assert_eq!(measures.topology.euler as f64, euler, "{name}");
-            }
+        let commands = commands(&text);
+        let is_measure = |words: &&Vec<String>| words[1] == "measure";
+        assert_eq!(commands[0][..2], ["yont", &format!("examples/{name}")], "{name} is run as itself");
+        for words in commands.iter().filter(|words| !is_measure(words)) {
+            runs_as_said(&name, &text, words);
         }
+        measures_as_said(&name, &text, commands.iter().find(is_measure));
+        prints_as_said(&name, &text);
     }
 }
 
@@ -159,32 +240,65 @@ fn blocks(language: &str) -> Vec<(usize, String)> {
     found
 }
 
+/// What a block is expected to show: what follows `;` and `//` in a line.
+fn expected(block: &str) -> Vec<&str> {
+    block.lines().filter_map(|row| Some(row.split_once("; ")?.1.trim().strip_prefix("//")?.trim())).collect()
+}
+
+/// Whether a value is the expected one: but for the last digits if it is a number, in its text if it is none.
+fn shows(event: &Event, expected: &str) -> Option<bool> {
+    match event {
+        Event::Value { number: Some(found), .. } if found.is_finite() => Some(
+            expected.parse::<f64>().is_ok_and(|expected| (found - expected).abs() <= 1e-12 * expected.abs().max(1.0)),
+        ),
+        Event::Value { text, .. } | Event::Printed(text) => Some(text == expected),
+        Event::Defined(_) => None,
+    }
+}
+
+fn manual_session() -> Session {
+    let host = Memory::with(&[("ramp.dat", blocks("dat")[0].1.as_bytes())]);
+    Session::new(Arc::new(host), Limits::default(), Interrupt::default())
+}
+
 #[test]
 fn every_block_of_the_manual_runs_and_each_value_is_right() {
     let mut compared = 0;
     for (line, block) in blocks("geo") {
-        let host = Memory::with(&[("ramp.dat", blocks("dat")[0].1.as_bytes())]);
-        let mut session = Session::new(Arc::new(host), Limits::default(), Interrupt::default());
-        let outcome = session.input("manual.geo", &block, Mode::Script);
+        let outcome = manual_session().input("manual.geo", &block, Mode::Script);
         assert!(outcome.accepted, "line {line} of the manual\n{block}\n{}", messages(&outcome));
-        let found: Vec<f64> = outcome
-            .events
-            .iter()
-            .filter_map(|event| match event {
-                Event::Value { number, text, .. } => Some(number.unwrap_or_else(|| panic!("line {line}: {text}"))),
-                _ => None,
-            })
-            .collect();
-        let value = |row: &str| row.split_once("; ")?.1.trim().strip_prefix("//")?.trim().parse::<f64>().ok();
-        let expected: Vec<f64> = block.lines().filter_map(value).collect();
-        assert_eq!(found.len(), expected.len(), "line {line}: a value for each bare expression\n{block}\n{found:?}");
-        for (found, expected) in found.iter().zip(&expected) {
-            assert!(
-                (found - expected).abs() <= 1e-12 * expected.abs().max(1.0),
-                "line {line}: {found}, not {expected}"
-            );
+        let mut expected = expected(&block).into_iter();
+        for event in &outcome.events {
+            if matches!(event, Event::Defined(_)) {
+                continue;
+            }
+            let value = expected.next().unwrap_or_else(|| panic!("line {line}: nothing is expected of {event:?}"));
+            assert_eq!(shows(event, value), Some(true), "line {line}: {event:?}, not {value}");
+            compared += 1;
         }
-        compared += found.len();
+        assert_eq!(expected.next(), None, "line {line}: nothing shows the value");
     }
-    assert!(compared > 20, "{compared} values");
+    assert!(compared > 80, "{compared} values");
+}
+
+#[test]
+fn what_the_manual_shows_as_wrong_gets_the_messages_that_it_shows() {
+    let (wrong, texts) = (blocks("geo wrong"), blocks("text"));
+    assert!(!wrong.is_empty() && wrong.len() == texts.len(), "each has its messages");
+    for ((line, block), (_, expected)) in wrong.iter().zip(&texts) {
+        let mut session = manual_session();
+        let outcome = session.input("script.geo", block, Mode::Script);
+        let told: String = outcome.diagnostics.iter().map(|d| human(d, session.sources(), Colour::Plain)).collect();
+        assert_eq!(told.trim_end(), expected.trim_end(), "line {line} of the manual");
+    }
+}
+
+#[test]
+fn the_prompt_answers_as_the_manual_shows() {
+    for (line, block) in blocks("console") {
+        let (typed, shown): (Vec<&str>, Vec<&str>) = block.lines().partition(|row| row.starts_with("> "));
+        let input: String = typed.iter().map(|row| format!("{}\n", &row[2..])).collect();
+        let ran = crate::cli::run(crate::cli::folder(&[]).path(), &[], &input);
+        assert_eq!(ran.out.lines().collect::<Vec<_>>(), shown, "line {line} of the manual: {}", ran.err);
+    }
 }

@@ -1,5 +1,6 @@
 //! Each format is read back by a reader that shares no code with the writer, and compared with what was written.
 
+use super::readback::files;
 use super::solids::{Ex, shape_of};
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
@@ -92,7 +93,7 @@ fn glb_holds_the_mesh() {
 #[test]
 fn glb_shows_one_frame_at_a_time() {
     let meshes = [ball(1, 1., [0.; 3]), ball(2, 2., [0.; 3]), ball(0, 3., [0.; 3])];
-    let frames: Vec<Part> = meshes.iter().map(|mesh| Part::of("gob_a", mesh)).collect();
+    let frames: Vec<Vec<Part>> = meshes.iter().map(|mesh| vec![Part::of("gob_a", mesh)]).collect();
     let mut bytes = Vec::new();
     glb::write_animation(&frames, 0.5, "gob_a", &mut bytes).unwrap();
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
@@ -402,4 +403,32 @@ fn what_a_format_cannot_hold_is_refused_before_a_byte_is_written() {
     assert!(apng::write(&two, 1., &mut bytes).is_err(), "two sizes");
     assert!(apng::write(&vec![two[0].clone(); 2], 0., &mut bytes).is_err(), "no time");
     assert!(bytes.is_empty());
+}
+
+#[test]
+fn several_objects_keep_their_names_and_colours() {
+    let (one, two) = (ball(2, 1., [0.; 3]), ball(1, 0.5, [3., 0., 0.]));
+    let (red, many) = (vec![[255, 0, 0]; one.positions.len()], colours(&two));
+    let parts = [coloured("gob_a", &one, &red), coloured("gob b", &two, &many), Part::of("gob_c", &one)];
+    let mut bytes: [Vec<u8>; 3] = Default::default();
+    obj::write(&parts, &mut bytes[0]).unwrap();
+    glb::write(&parts, "all", &mut bytes[1]).unwrap();
+    threemf::write(&parts, Some(&thumbnail()), "all", &mut bytes[2]).unwrap();
+    let read = [files::obj(&bytes[0]), files::glb(&bytes[1]), files::threemf(&bytes[2])];
+    for (read, second) in read.iter().zip(["gob_b", "gob b", "gob b"]) {
+        let names: Vec<&str> = read.meshes.iter().map(|mesh| mesh.0.as_str()).collect();
+        assert_eq!(names, ["gob_a", second, "gob_c"]);
+        for (n, part) in parts.iter().enumerate() {
+            let mesh = &read.meshes[n].1;
+            assert_eq!(single(&mesh.positions), single(&part.mesh.positions), "{second}: part {n}");
+            assert_eq!(mesh.triangles, part.mesh.triangles, "{second}: part {n}");
+            assert_eq!(read.colours[n], part.colours.unwrap_or_default(), "{second}: part {n}");
+        }
+    }
+}
+
+fn thumbnail() -> Vec<u8> {
+    let mut picture = Vec::new();
+    apng::write(&[Image::new(256, 256, [9, 8, 7])], 1., &mut picture).unwrap();
+    picture
 }

@@ -119,7 +119,7 @@ fn formulas_are_as_short_as_they_may_be() {
     assert!(outcome.accepted, "{}", messages(&outcome));
     for (name, expected) in [
         ("gob_a", "gob_a = 4 - (x1 - 1)**2 \\ (4 - x1**2);"),
-        ("gob_l", "gob_l = x1*2 | x2 & x3;"),
+        ("gob_l", "gob_l = (x1*2 | x2) & x3;"),
         ("a", "a = [2, [4, -1]];"),
         ("u", "u = 0.3333333333333333;"),
         ("t", "t = \"word\";"),
@@ -159,7 +159,7 @@ fn what_is_told_of_names() {
                 "reads: gob_ball, gob_hole",
             ],
         ),
-        ("gob_box", &["a plane figure", "share no coordinate"]),
+        ("gob_box", &["x3 : Z by default", "share no coordinate"]),
         ("gob_odd", &["sides share x1", "empty"]),
         ("gob_log", &["perhaps undefined"]),
         ("gob_full", &["x4 : T, from 0 to 1", "fills the whole space"]),

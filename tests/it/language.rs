@@ -150,6 +150,16 @@ fn functions_have_their_own_scope() {
         ("f(n) = BEGIN g(t) = IF t <= 0 THEN 0 ELSE n + g(t - 1); f = g(4); END; v = f(5);", &[], 20.0),
         ("f(t) = t**2; g = f; v = g(3);", &[], 9.0),
         ("b = 2; f(b) = b + c; c = b; v = f(10);", &[], 12.0),
+        (
+            "even(n) = IF n <= 0 THEN 1 ELSE odd(n - 1); odd(n) = IF n <= 0 THEN 0 ELSE even(n - 1); v = even(7);",
+            &[],
+            0.0,
+        ),
+        (
+            "v = even(6); odd(n) = IF n <= 0 THEN 0 ELSE even(n - 1); even(n) = IF n <= 0 THEN 1 ELSE odd(n - 1);",
+            &[],
+            1.0,
+        ),
     ]);
 }
 
@@ -236,6 +246,9 @@ fn what_can_be_known_is_an_error_at_once() {
         ("z = x1; i = 0; WHILE (z < 9) DO BEGIN z = z + RANDOM(1, i)/1e6; i = i + 1; END;", "unbounded-loop: this loop depends on x1"),
         ("f(n) = f(n + 1); v = f(1);", "too-many-calls"),
         ("f(n) = BEGIN s = n; END; v = f(1);", "no-result"),
+        ("f(n) = BEGIN s = n; END;", "no-result"),
+        ("f(n) = g(n); g(n) = f(n + 1); v = f(1);", "too-many-calls"),
+        ("f(n) = g(n); g(n) = f(n) + a; a = f(1);", "circle: these definitions go round in a circle: f -> g -> a -> f"),
         ("f(n) = BEGIN s = s + n; f = s; END; s = 1; v = f(1);", "read-before-assigned: `s`"),
         ("f(n) = n; v = f + 1;", "no-arithmetic"),
         ("gob_a(n) = n;", "gob-with-parameters"),
@@ -312,5 +325,17 @@ fn an_object_at_a_point_and_a_derivative_by_a_parameter_are_numbers() {
             "{script}\n{}",
             messages(&outcome)
         );
+    }
+}
+
+#[test]
+fn what_is_wrong_in_a_body_is_told_once_though_it_is_called() {
+    for script in [
+        "f(p) = SIN(p, 2); v = f(1);",
+        "f(p) = p; g(q) = f(q, q); v = g(1); w = g(2);",
+        "f(n) = BEGIN s = n; END; v = f(1);",
+    ] {
+        let outcome = session_with(&[]).input("s.geo", script, Mode::Script);
+        assert_eq!(outcome.diagnostics.len(), 1, "{script}: {}", messages(&outcome));
     }
 }

@@ -6,14 +6,15 @@ use yont::host::{Host, Memory};
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::model::Session;
+use yont::model::request::{self, Cells, Options, Output};
 use yont::syntax::Mode;
+
+/// A volume of four samples.
+const FOUR: &[u8] = b"NRRD0004\ntype: float\ndimension: 1\nsizes: 4\nencoding: ascii\n\n1 2 3 4\n";
 
 /// The messages of a program under these limits, errors only.
 fn errors(limits: Limits, program: &str) -> Vec<String> {
-    let host: Arc<dyn Host> = Arc::new(Memory::with(&[(
-        "four.nrrd",
-        b"NRRD0004\ntype: float\ndimension: 1\nsizes: 4\nencoding: ascii\n\n1 2 3 4\n",
-    )]));
+    let host: Arc<dyn Host> = Arc::new(Memory::with(&[("four.nrrd", FOUR)]));
     let mut session = Session::new(host, limits, Interrupt::default());
     let outcome = session.input("limits.geo", program, Mode::Script);
     let errors = outcome.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
@@ -66,28 +67,152 @@ fn errors_beyond_the_limit_are_counted() {
     let bad = |count: usize| (0..count).map(|i| format!("a{i} = nowhere{i} + 1;\n")).collect::<String>();
     let told = |count: usize| errors(limits.clone(), &bad(count));
     assert_eq!(told(5).iter().filter(|said| said.contains("nowhere")).count(), 5);
-    let beyond = told(9);
-    assert_eq!(beyond.len(), 5);
-    assert!(beyond.last().is_some_and(|said| said.contains("5 more")), "the other five are counted: {beyond:?}");
+    for (count, others) in [(6, "2 more"), (9, "5 more")] {
+        let beyond = told(count);
+        assert_eq!(beyond.len(), 5);
+        assert!(beyond.last().is_some_and(|said| said.contains(others)), "the others are counted: {beyond:?}");
+    }
 }
 
 #[test]
 fn inputs_beyond_the_limit_cannot_be_undone() {
-    let limits = Limits { undo_levels: 3, ..Limits::default() };
-    let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
-    for i in 0..5 {
-        assert!(session.input("", &format!("a = {i};"), Mode::Prompt).accepted);
+    for (inputs, undone) in [(2, 2), (3, 3), (4, 3)] {
+        let limits = Limits { undo_levels: 3, ..Limits::default() };
+        let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
+        for i in 0..inputs {
+            assert!(session.input("", &format!("a = {i};"), Mode::Prompt).accepted);
+        }
+        assert_eq!((0..5).filter(|_| session.undo().is_some()).count(), undone);
     }
-    assert_eq!((0..5).filter(|_| session.undo().is_some()).count(), 3);
 }
 
 #[test]
 fn a_data_file_beyond_the_limit_is_not_read() {
     let program = "a = INTERPOLATE(\"nearest\", \"four.nrrd\", 0);";
-    let size = 67;
+    let size = FOUR.len();
     let with = |data_bytes| errors(Limits { data_bytes, ..Limits::default() }, program);
-    assert_eq!(with(1 << 20), Vec::<String>::new());
-    assert!(with(size - 20).first().is_some_and(|said| said.contains("four.nrrd")));
+    assert_eq!(with(size), Vec::<String>::new());
+    let refused = with(size - 1);
+    assert!(refused[0].contains("four.nrrd") && refused[0].contains(&(size - 1).to_string()), "{refused:?}");
+}
+
+/// The smallest number in a range that will do, if all larger ones do.
+fn least(mut lo: usize, mut hi: usize, fits: impl Fn(usize) -> bool) -> usize {
+    while lo < hi {
+        let middle = lo + (hi - lo) / 2;
+        if fits(middle) { hi = middle } else { lo = middle + 1 }
+    }
+    lo
+}
+
+#[test]
+fn a_session_of_too_many_nodes_is_refused() {
+    let program = "gob_a = 1; FOR i = 1 TO 20 DO gob_a = gob_a + SIN(i*x1);";
+    let with = |graph_nodes| errors(Limits { graph_nodes, ..Limits::default() }, program);
+    let enough = least(1, 1000, |n| with(n).is_empty());
+    assert!((20..200).contains(&enough), "{enough}");
+    let refused = with(enough - 1);
+    assert!(refused.len() == 1 && refused[0].contains(&format!("more than {} operations", enough - 1)), "{refused:?}");
+}
+
+/// What `-o` answers under these limits: nothing, or its messages.
+fn output(limits: Limits, program: &str, to: &str, set: impl Fn(&mut Options)) -> Vec<String> {
+    let host = Arc::new(Memory::default());
+    let mut session = Session::new(host.clone(), limits, Interrupt::default());
+    assert!(session.input("limits.geo", program, Mode::Script).accepted, "{program}");
+    let mut options = Options::default();
+    options.view.cells = Cells::Along(6);
+    options.picture.size = Some((12, 9));
+    set(&mut options);
+    let output = Output::parse(to, None).expect("an output");
+    let written = request::write(&mut session, &output, &options, &mut Vec::new());
+    let told: Vec<String> = written.err().into_iter().flatten().map(|d| format!("{d:?}")).collect();
+    assert_eq!(host.names().is_empty(), !told.is_empty(), "a file or a message");
+    told
+}
+
+const SPACE: &str = "x1min = -2; x1max = 2; x2min = -2; x2max = 2; x3min = -2; x3max = 2;";
+
+/// Limits of what is made: which, the program and the output of so many, the options, and the words that name the limit `{}`.
+type Making = (&'static str, fn(usize) -> String, &'static str, fn(&mut Options, usize), &'static str);
+
+const MAKING: &[Making] = &[
+    (
+        "frames of T",
+        |n| format!("gob_a = 1 + x4 - x1**2 - x2**2; x4min = 0; x4max = {}; x4_delta = 1;", n - 1),
+        "a.gif",
+        |_, _| {},
+        "more than {} values of x4",
+    ),
+    (
+        "numbered frames",
+        |n| format!("gob_a = 1 + x4 - x1**2 - x2**2; x4min = 0; x4max = {}; x4_delta = -1;", n - 1),
+        "a{n}.svg",
+        |_, _| {},
+        "more than {} values of x4",
+    ),
+    (
+        "--frames",
+        |_| "gob_a = 1 + x4 - x1**2 - x2**2; x4min = 0; x4max = 1;".into(),
+        "a.apng",
+        |options, n| options.timing.frames = Some(n),
+        "more than {} values of x4",
+    ),
+    (
+        "columns",
+        |n| format!("gob_a = x5 - x1**2 - x2**2; x5 : V; x5min = 1; x5max = {n}; x5_delta = 1;"),
+        "a.png",
+        |_, _| {},
+        "more than {} values of x5",
+    ),
+    (
+        "a group",
+        |n| format!("gob_a = x5 - x1**2 - x2**2; x5 : G = [{}1];", "1, ".repeat(n - 1)),
+        "a.png",
+        |_, _| {},
+        "more than {} values of x5",
+    ),
+];
+
+#[test]
+fn at_n_it_is_made_and_at_n_plus_1_it_is_refused_with_the_number() {
+    let n = 5;
+    let limits = || Limits { frames: n, ..Limits::default() };
+    for (what, program, to, set, words) in MAKING {
+        let with = |many| output(limits(), &(program(many) + &SPACE[..46]), to, |options| set(options, many));
+        assert_eq!(with(n), Vec::<String>::new(), "{what} at {n}");
+        let refused = with(n + 1);
+        assert!(refused.len() == 1 && refused[0].contains(&words.replace("{}", &n.to_string())), "{what}: {refused:?}");
+    }
+    let groups = |a: usize, b: usize| {
+        let list = |many: usize| format!("[{}1]", "1, ".repeat(many - 1));
+        format!("gob_a = x5*x6 - x1**2 - x2**2; x5 : G = {}; x6 : G = {}; {}", list(a), list(b), &SPACE[..46])
+    };
+    let six = || Limits { frames: 6, ..Limits::default() };
+    assert_eq!(output(six(), &groups(3, 2), "a.png", |_| {}), Vec::<String>::new());
+    assert!(output(six(), &groups(4, 2), "a.png", |_| {})[0].contains("more than 6 sections"));
+}
+
+#[test]
+fn pictures_have_a_largest_side_and_work_has_a_memory() {
+    let program = format!("gob_a = 1 - x1**2 - x2**2; {}", &SPACE[..46]);
+    let side = |size| {
+        output(Limits { picture_side: 20, ..Limits::default() }, &program, "a.png", |o| o.picture.size = Some(size))
+    };
+    for (within, beyond) in [((20, 1), (21, 1)), ((1, 20), (1, 21))] {
+        assert_eq!(side(within), Vec::<String>::new());
+        assert!(side(beyond)[0].contains("1 to 20 pixels"), "{beyond:?}");
+    }
+    for (program, to) in [
+        (program.clone(), "a.png"),
+        (program, "a.nrrd"),
+        (format!("gob_a = 1 - x1**2 - x2**2 - x3**2; {SPACE}"), "a.stl"),
+    ] {
+        let with = |memory_bytes| output(Limits { memory_bytes, ..Limits::default() }, &program, to, |_| {});
+        let enough = least(1, 64 << 20, |n| with(n).is_empty());
+        assert!(enough > 100, "{to}: {enough}");
+        assert!(with(enough - 1)[0].contains("memory"), "{to}: {:?}", with(enough - 1));
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! memory; the same bytes with one, two and eight threads.
 
 #[path = "readback/files.rs"]
-mod files;
+pub mod files;
 
 use std::collections::BTreeSet;
 
@@ -12,6 +12,7 @@ use yont::model::Session;
 use yont::model::request::{self, Cells, FORMATS, Format, Kind, Options, Output, Sequence, Subject};
 use yont::surface::contour::outlines;
 use yont::surface::{Mesh, extract};
+use yont::syntax::Mode;
 use yont::vm::Demand;
 
 use crate::examples::{examples, loaded};
@@ -221,4 +222,56 @@ fn every_format_of_every_example_reads_back_and_does_not_depend_on_threads() {
         }
     }
     assert_eq!(seen.len(), FORMATS.len(), "each format is made of some example: {seen:?}");
+}
+
+/// The bytes of each format of meshes that knows colours, and of STL, from a script.
+fn coloured(script: &str, format: Format) -> Read {
+    let mut session = crate::session::session();
+    let outcome = session.input("a.geo", script, Mode::Script);
+    assert!(outcome.accepted, "{script}: {:?}", outcome.diagnostics);
+    let options = options();
+    let subject = request::subject(&mut session, &options.view, &options.timing).expect("a subject");
+    let bytes = make(&mut session, format, &subject).unwrap_or_else(|code| panic!("{script} as {format:?}: {code}"));
+    match format {
+        Format::Stl => files::stl(&bytes),
+        Format::Obj => files::obj(&bytes),
+        Format::Ply => files::ply(&bytes),
+        Format::Glb => files::glb(&bytes),
+        _ => files::threemf(&bytes),
+    }
+}
+
+#[test]
+fn the_colour_of_an_object_goes_into_every_format_that_knows_colours() {
+    let ball = "gob_a = 1 + x4 - x1**2 - x2**2 - x3**2; x1min=-2;x1max=2;x2min=-2;x2max=2;x3min=-2;x3max=2;";
+    type Colour = fn([f64; 3], f64) -> [f64; 3];
+    let cases: [(&str, Colour); 4] = [
+        ("x4 : CONSTANT = 0; gob_a : COLOR = [1, 0.5, 0];", |_, _| [1.0, 0.5, 0.0]),
+        ("x4 : CONSTANT = 0; gob_a : COLOR = [0.5 + x1/2, 0.25, ABS(x3)];", |[x, _, z], _| {
+            [0.5 + x / 2.0, 0.25, z.abs()]
+        }),
+        // Beyond 0 and 1 it is cut off.
+        ("x4 : CONSTANT = 0; gob_a : COLOR = [3*x1, x1 - 9, 9 + x2];", |[x, ..], _| [(3.0 * x).clamp(0.0, 1.0), 0.0, 1.0]),
+        ("x4min = 0; x4max = 0.5; x4_delta = 0.5; gob_a : COLOR = [x4, 1 - x4, x2**2/4];", |[_, y, _], t| {
+            [t, 1.0 - t, y * y / 4.0]
+        }),
+    ];
+    for (lines, colour) in cases {
+        for format in [Format::Obj, Format::Ply, Format::Glb, Format::ThreeMf] {
+            let read = coloured(&format!("{ball} {lines}"), format);
+            for (n, ((name, mesh), colours)) in read.meshes.iter().zip(&read.colours).enumerate() {
+                assert_eq!(colours.len(), mesh.positions.len(), "{lines} as {format:?}: a colour for each vertex");
+                for (place, found) in mesh.positions.iter().zip(colours) {
+                    let wanted = colour(*place, 0.5 * n as f64).map(|c| c * 255.0);
+                    let close = (0..3).all(|k| (f64::from(found[k]) - wanted[k]).abs() <= 0.52);
+                    assert!(close, "{lines} as {format:?}, {name}, at {place:?}: {found:?}, not {wanted:?}");
+                }
+            }
+        }
+        assert!(coloured(&format!("{ball} {lines}"), Format::Stl).colours[0].is_empty());
+    }
+    for format in [Format::Obj, Format::Ply, Format::Glb, Format::ThreeMf] {
+        let read = coloured(&format!("{ball} x4 : CONSTANT = 0;"), format);
+        assert!(read.colours[0].is_empty(), "{format:?}: colours that nobody gave");
+    }
 }

@@ -43,6 +43,50 @@ const PIPED: &[(&str, &str, Words, Words, i32)] = &[
     ("leaving", ":quit\n1 +* 2\n", &[], &[], 0),
     ("no end of line", "2 + 2", &["4"], &[], 0),
     ("an end within something open", "a = (1", &[], &["("], 3),
+    (
+        "help of a word",
+        ":help while\nr_alpha?\nx1min?\n",
+        &["WHILE (c) DO s;", "r_alpha = 1;", "modelling space"],
+        &[],
+        0,
+    ),
+    ("documentation that is missing", "a = 1;\na?\n", &["a = 1\n", "No comment stands right above"], &[], 0),
+    ("the last value is an object", "gob_b = x1**2;\ngob_b\n_(3)\n", &["9\n"], &[], 0),
+    (
+        "an object shows itself",
+        "gob_b = x1*x2; x1min = 0; x1max = 2;\ngob_b\n",
+        &["gob_b: 2-D object of x1, x2; x1 from 0 to 2; route cubes"],
+        &[],
+        0,
+    ),
+    ("a formula", "r = 2; gob_b = r*x1 + r;\n:formula gob_b\n", &["gob_b = x1*2 + 2;\n"], &[], 0),
+    ("a formula of a function", "f(p) = p;\n:formula f\n", &[], &["`f(p)` has parameters"], 3),
+    ("an explanation", "gob_b = x1 @ x2;\n:explain gob_b\n", &["share no coordinate", "r_alpha = 0"], &[], 0),
+    ("an explanation of nothing", "gob_b = x1;\n:explain gob_c\n", &[], &["did you mean `gob_b`"], 3),
+    ("no pictures off a terminal", "gob_b = x1;\n:show\n", &[], &[":set images half"], 2),
+    ("pictures that are off", ":set images off\n:show\n", &[], &["pictures are off"], 2),
+    ("how long it took", "gob_b = x1;\n:time\n:time\n", &["parse", "lower", "in all"], &[], 0),
+    ("a reset", "a = 1; b = 2;\n:reset\na\n", &[], &["forgot 2 definitions", "not defined"], 3),
+    ("a reset taken back", "a = 1; b = 2;\n:reset\n:undo\na + b\n", &["3\n"], &["took back: :reset"], 0),
+    (
+        "a reset done again",
+        "r_alpha = 1; a = 1 | 2;\n:reset\n:undo\n:redo\n1 | 1\n",
+        &["3.41421356"],
+        &["again: :reset"],
+        0,
+    ),
+    (
+        "a command without its colon",
+        "help\nexit()\nload ball.geo\n",
+        &[],
+        &["`:help`", "`:quit`", "`:load ball.geo`"],
+        2,
+    ),
+    ("a name that is a command's", "time = 3;\ntime\nlist = [1];\nlist[1]\n", &["3\n", "1\n"], &[], 0),
+    ("a command of another program", ":exit\n", &[], &["`:quit`"], 2),
+    ("an option that is misspelt", ":set resolutoin 3\n", &[], &["'--resolution'"], 2),
+    ("a value that is misspelt", ":set view tpo\n", &[], &["perspective", "'top'"], 2),
+    ("words of other languages", "let a = 3\n", &[], &["`a = 3;`"], 3),
     ("a mesh of the wrong kind", ":mesh a.png\n", &[], &[":render"], 2),
 ];
 
@@ -76,6 +120,28 @@ fn files_come_and_go() {
     assert_eq!((again.status, again.out.lines().last()), (Some(0), Some("1")), "{}", again.err);
     assert_eq!(run(folder.path(), &[], ":load none.geo\n").status, Some(4));
     assert_eq!(run(folder.path(), &[], "1\n:mesh none/a.stl\n").status, Some(3), "nothing is defined");
+}
+
+#[test]
+fn saved_programs_find_their_data() {
+    let volume = b"2 2\n0 1 2 3\n";
+    let part =
+        b"map(f) = INTERPOLATE(\"trilinear\", f, x1, x2); gob_a = INTERPOLATE(\"trilinear\", \"v.dat\", x1, x2);";
+    let folder = folder(&[("main.geo", b"INCLUDE \"lib/part.geo\"; gob_b = map(\"v.dat\") + gob_a; gob_b(1, 1);")]);
+    fs::create_dir_all(folder.path().join("lib")).expect("a folder");
+    fs::create_dir_all(folder.path().join("out/deep")).expect("a folder");
+    fs::write(folder.path().join("lib/part.geo"), part).expect("room");
+    fs::write(folder.path().join("lib/v.dat"), volume).expect("room");
+    let input = ":load main.geo\n:save out/deep/saved.geo\n:save here.geo\n:formula gob_b out/b.geo\n";
+    let ran = run(folder.path(), &[], input);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    for saved in ["out/deep/saved.geo", "here.geo", "out/b.geo"] {
+        let again = run(folder.path(), &[saved, "-e", "gob_b(1, 1)"], "");
+        let text = fs::read_to_string(folder.path().join(saved)).expect("saved");
+        assert_eq!((again.status, again.out.lines().last()), (Some(0), Some("6")), "{}{text}", again.err);
+    }
+    let text = fs::read_to_string(folder.path().join("out/deep/saved.geo")).expect("saved");
+    assert!(text.contains("\"../../lib/v.dat\""), "{text}");
 }
 
 #[test]
@@ -136,6 +202,39 @@ fn on_a_terminal() {
     assert!(matches!(terminal.get_process().wait(), Ok(WaitStatus::Exited(_, 0))));
     let history = fs::read_to_string(state.path().join("state/yont/history")).expect("a history");
     assert!(history.contains("20 + 22"), "{history}");
+}
+
+#[test]
+fn pictures_on_a_terminal() {
+    let state = state();
+    let mut terminal = terminal(state.path());
+    let object = "gob_b = 1 - x1**2 - x2**2; x1min = -2; x1max = 2; x2min = -2; x2max = 2";
+    terminal.send_line(object).expect("typed");
+    answer(&mut terminal, "object of x1, x2");
+    for (images, drawn) in
+        [("half", "\u{2580}"), ("sixel", "\u{1b}P0;1;0q"), ("iterm", "]1337;File="), ("kitty", "\u{1b}_Ga=T")]
+    {
+        terminal.send_line(format!(":set images {images}")).expect("typed");
+        terminal.expect("yont>").expect("a prompt");
+        terminal.send_line("gob_b").expect("typed");
+        terminal.expect("2-D object of x1, x2").expect("the line");
+        answer(&mut terminal, drawn);
+    }
+    terminal.send(ControlCode::EndOfTransmission).expect("typed");
+    terminal.expect(expectrl::Eof).expect("Ctrl-D leaves");
+}
+
+#[test]
+fn a_pasted_program_works() {
+    let state = state();
+    let mut terminal = terminal(state.path());
+    let program = "r = 2;\n{ A bead\n  to be pasted }\ngob_ball = r**2\n  - x1**2;\nFOR i = 1 TO 3 DO BEGIN\n  r = r + i;\nEND;\nr + 10\n";
+    terminal.send(format!("\x1b[200~{program}\x1b[201~\r")).expect("pasted");
+    answer(&mut terminal, "18");
+    terminal.send_line("gob_ball?").expect("typed");
+    answer(&mut terminal, "to be pasted");
+    terminal.send(ControlCode::EndOfTransmission).expect("typed");
+    terminal.expect(expectrl::Eof).expect("Ctrl-D leaves");
 }
 
 #[test]

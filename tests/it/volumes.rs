@@ -238,19 +238,13 @@ fn samples_may_lie_in_several_files() {
 fn headers_that_make_no_volume_are_refused_in_words() {
     let grid = "type: uint8\nencoding: raw\n";
     let cases: &[(&str, &str)] = &[
-        (
-            "dimension: 3\nsizes: 3 2 2\nkinds: RGB-color domain domain",
-            "axis 1 of the grid holds the components of a RGB-color",
-        ),
-        (
-            "dimension: 4\nsizes: 3 2 2 2\nkinds: vector domain domain domain",
-            "axis 1 of the grid holds the components of a vector",
-        ),
+        ("dimension: 3\nsizes: 3 2 2\nkinds: RGB-color domain domain", "axis 1 holds the components of a RGB-color"),
+        ("dimension: 4\nsizes: 3 2 2 2\nkinds: vector domain domain domain", "axis 1 holds the components of a vector"),
         (
             "dimension: 4\nsizes: 3 2 2 2\nspace directions: none (1,0,0) (0,1,0) (0,0,1)",
-            "axis 1 of the grid is no direction",
+            "4 axes, and axis 1 is no direction",
         ),
-        ("dimension: 3\nsizes: 2 2 4\nkinds: domain domain list", "axis 3 of the grid holds the components of a list"),
+        ("dimension: 3\nsizes: 2 2 4\nkinds: domain domain list", "axis 3 holds the components of a list"),
         ("dimension: 4\nsizes: 2 2 2 2", "4 axes"),
         ("dimension: 17\nsizes: 1", "17 axes"),
         ("dimension: 1\nsizes: 1\nkinds: domain domain", "`kinds` has 2 entries for 1 axes"),

@@ -2,7 +2,7 @@
 
 use super::super::error::DataError;
 use super::super::stream::{NumberType, number, shown};
-use super::super::volume::Placement;
+use super::super::volume::{Placement, spans};
 
 /// How the samples are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -213,7 +213,7 @@ impl Header {
             self.dimension.ok_or(DataError::MissingField { field: "dimension", example: "dimension: 3" })?;
         let sizes =
             self.sizes.as_ref().ok_or(DataError::MissingField { field: "sizes", example: "sizes: 64 64 32" })?;
-        self.only_directions()?;
+        self.only_directions(dimension)?;
         if dimension == 0 || dimension > 3 {
             return Err(DataError::Dimensions { found: dimension });
         }
@@ -236,17 +236,20 @@ impl Header {
     }
 
     /// Refuses axes along which one does not move: components of colours and vectors, lists.
-    fn only_directions(&self) -> Result<(), DataError> {
+    fn only_directions(&self, dimension: usize) -> Result<(), DataError> {
+        let refused = |axis: usize, what: &str| {
+            let grid = if dimension > 3 { format!("the grid has {dimension} axes, and ") } else { String::new() };
+            let what = format!("{grid}axis {} {what}", axis + 1);
+            Err(DataError::Unsupported { what, help: ONE_COMPONENT.into() })
+        };
         let moves =
             |kind: &str| ["domain", "space", "time", "none", "???"].iter().any(|k| kind.eq_ignore_ascii_case(k));
         let kinds = self.kinds.iter().flatten().enumerate();
         if let Some((axis, kind)) = kinds.into_iter().find(|(_, kind)| !moves(kind)) {
-            let kind = shown(kind.as_bytes());
-            let what = format!("axis {} of the grid holds the components of a {kind}", axis + 1);
-            return Err(DataError::Unsupported { what, help: ONE_COMPONENT.into() });
+            return refused(axis, &format!("holds the components of a {}", shown(kind.as_bytes())));
         }
         match self.directions.iter().flatten().position(Option::is_none) {
-            Some(axis) => Err(no_direction(axis)),
+            Some(axis) => refused(axis, "is no direction of space"),
             None => Ok(()),
         }
     }
@@ -265,8 +268,7 @@ impl Header {
         }
         if let Some(directions) = &self.directions {
             for (axis, direction) in directions.iter().enumerate() {
-                let direction = direction.as_ref().ok_or_else(|| no_direction(axis))?;
-                placement.directions[axis] = within(direction, dimension)?;
+                placement.directions[axis] = within(direction.as_deref().unwrap_or_default(), dimension)?;
             }
         }
         if let Some(origin) = &self.origin {
@@ -275,8 +277,7 @@ impl Header {
                 *to = *from;
             }
         }
-        let flat = placement.origin.iter().chain(placement.directions.iter().flatten()).any(|v| !v.is_finite());
-        if flat { Err(DataError::FlatGrid) } else { Ok(placement) }
+        if spans(&placement, dimension) { Ok(placement) } else { Err(DataError::FlatGrid) }
     }
 }
 
@@ -298,13 +299,6 @@ fn blocks() -> DataError {
     DataError::Unsupported {
         what: "samples of type `block` are not numbers".into(),
         help: "write the file again with a number type".into(),
-    }
-}
-
-fn no_direction(axis: usize) -> DataError {
-    DataError::Unsupported {
-        what: format!("axis {} of the grid is no direction of space", axis + 1),
-        help: ONE_COMPONENT.into(),
     }
 }
 

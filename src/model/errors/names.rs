@@ -6,7 +6,7 @@ use rustc_hash::FxHashSet;
 
 use crate::builtins::{self, Builtin};
 use crate::diagnostic::Diagnostic;
-use crate::diagnostic::near::{Candidate, suggest};
+use crate::diagnostic::near::{Candidate, foreign, suggest};
 use crate::field::Coordinate;
 use crate::source::Span;
 use crate::syntax::tree::{GeometricType, Name, Parameter, Statement, StatementKind};
@@ -35,7 +35,13 @@ pub fn unknown_name_among(
         return told.help("`_` is the value of the last expression at the prompt, and there is none yet");
     }
     if let Some(builtin) = builtins::find(name) {
-        return told.help(format!("`{}` is a built-in function: {}", builtin.name, builtin.signature()));
+        return told.help(format!("`{}` is a built-in function: {}", builtin.name, builtin.signature())).help(format!(
+            "to pass it on as an argument, define a function of your own that calls `{}`",
+            builtin.name
+        ));
+    }
+    if let Some(help) = foreign(name) {
+        return told.help(help);
     }
     let near = near(state, name, others);
     match &near[..] {

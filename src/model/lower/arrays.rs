@@ -184,7 +184,7 @@ impl Lower<'_> {
 /// The place of element `i` (from 1) among `length`.
 fn whole_index(i: f64, length: usize) -> Option<usize> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)]
-    (i.fract() == 0.0 && i >= 1.0 && i <= length as f64).then_some(i as usize - 1)
+    (i.fract() == 0.0 && i >= 1.0 && i <= length as f64).then(|| i as usize - 1)
 }
 
 fn assign(target: &mut Value, path: &[(f64, Span)], new: Value, name: &Ident) -> Lowered<()> {

@@ -210,8 +210,8 @@ impl<'a> Lower<'a> {
     fn circle(&mut self, path: &[(Arc<Definition>, Vec<Arc<Definition>>)], again: &Arc<Definition>) {
         let start = path.iter().position(|(d, _)| d.id == again.id).unwrap_or(0);
         let circle: Vec<&Arc<Definition>> = path[start..].iter().map(|(d, _)| d).collect();
-        // Functions that call each other end, or not, when they are called.
-        if circle.iter().all(|d| d.is_function()) {
+        // Functions may call each other: none needs the value of another before it is called, and calls have a limit.
+        if circle.iter().all(|definition| definition.is_function()) {
             return;
         }
         let told = Arc::new(errors::circle(&circle));

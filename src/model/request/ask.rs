@@ -17,10 +17,13 @@ use super::fields::{Sampled, at_points};
 use super::make::{Workshop, Written, cancelled, make};
 use super::measured::{Dimension, Measured};
 use super::output::Output;
+use super::pictures;
 use super::subject::{Axis, Level, Place, Sequence, Subject};
+use super::together::subject;
 use super::{Options, Timing, View};
 use crate::model::environment::{self, Object, Role};
 use crate::model::session::Session;
+use crate::model::value::number;
 
 /// An answer, or the messages that say why there is none.
 type Asked<T> = Result<T, Vec<Diagnostic>>;
@@ -35,6 +38,8 @@ pub fn write(session: &mut Session, output: &Output, options: &Options, standard
         Some(slices) => subject.sliced(slices).map_err(|d| vec![d])?,
         None => subject,
     };
+    let subject =
+        subject.cut(&options.cuts, &pictures::view(&options.picture).map_err(|d| vec![d])?).map_err(|d| vec![d])?;
     let host = session.host.clone();
     let shop = Workshop { graph: &session.graph, limits: &session.limits, interrupt: &session.interrupt, host: &*host };
     make(&shop, &subject, output, options, standard).map_err(|d| vec![d])
@@ -47,7 +52,7 @@ pub fn write(session: &mut Session, output: &Output, options: &Options, standard
 pub fn measure(session: &mut Session, view: &View) -> Asked<Measured> {
     let subject = subject(session, view, &Timing::default())?;
     let one = |d: Diagnostic| vec![d];
-    subject.shown_by("a measurement", &[]).map_err(one)?;
+    subject.is_alone("a measurement").and_then(|()| subject.shown_by("a measurement", &[])).map_err(one)?;
     let grid = subject.grid(view.cells, &session.limits).map_err(one)?;
     let shape = subject.shape(&session.graph, Demand::Sign, &session.limits).map_err(one)?;
     let interrupt = &session.interrupt;
@@ -192,25 +197,33 @@ pub fn role(role: &Role) -> String {
         Role::V => "V".into(),
         Role::W => "W".into(),
         Role::C => "C".into(),
-        Role::Constant(value) => format!("CONSTANT = {value}"),
-        Role::Group(values) => format!("G = {values:?}"),
+        Role::Constant(value) => format!("CONSTANT = {}", number(*value)),
+        Role::Group(values) => format!("G = [{}]", values.iter().map(|v| number(*v)).collect::<Vec<_>>().join(", ")),
     }
 }
 
-/// The object that a view names as a subject: axes from types and ranges, sections from `at`, frames from time.
+/// The object that a view names as a subject, by itself.
 ///
 /// # Errors
 /// Messages for the user: what is missing or makes no sense.
-pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Subject> {
+pub(super) fn alone(session: &mut Session, view: &View, timing: &Timing) -> Asked<Subject> {
     let mut object = session.object(view.object.as_deref())?;
     override_axes(&mut object, view);
     let mut told = Vec::new();
     let mut subject = Subject::of(object.name.clone(), object.node, Place::new());
     for axis in object.axes.iter().filter(|a| !a.is_space()) {
-        let steps = axis.steps(session.limits.frames);
-        if let Err(diagnostic) = cast(&mut subject, axis, steps, timing) {
+        let most = session.limits.frames;
+        let steps = axis.steps(most);
+        let asked = timing.frames.filter(|_| matches!(axis.role, Role::T)).unwrap_or(steps.len());
+        if asked > most {
+            told.push(too_many(&subject.name, axis, most));
+        } else if let Err(diagnostic) = cast(&mut subject, axis, steps, timing) {
             told.push(diagnostic);
         }
+    }
+    let several = subject.groups.iter().chain(&subject.colour).map(|several| several.values.len());
+    if several.fold(1, usize::saturating_mul) > session.limits.frames {
+        told.push(too_many_sections(&subject.name, session.limits.frames));
     }
     match object.levels[..] {
         [0.0] => {}
@@ -234,11 +247,16 @@ pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Sub
         .space()
         .iter()
         .zip(bounds)
-        .map(|(a, (lo, hi))| Axis { coordinate: a.coordinate, range: [lo, hi] })
+        .map(|(a, (lo, hi))| Axis { coordinate: a.coordinate, range: [lo, hi], order: order(&a.role) })
         .collect();
     subject.span = session.place(&object.name);
     subject.colouring = object.colour;
     Ok(subject)
+}
+
+/// Which of X, Y and Z a role is.
+fn order(role: &Role) -> usize {
+    [Role::X, Role::Y, Role::Z].iter().position(|known| known == role).unwrap_or(2)
 }
 
 /// The function less a level.
@@ -294,6 +312,18 @@ fn frames(steps: &[f64], range: Option<(f64, f64)>, asked: Option<usize>) -> Vec
         (Some(1), _) => steps[..1].to_vec(),
         _ => steps.to_vec(),
     }
+}
+
+fn too_many(name: &str, axis: &environment::Axis, most: usize) -> Diagnostic {
+    let c = axis.coordinate;
+    Diagnostic::error("too-many-frames", format!("`{name}` takes more than {most} values of {c}"))
+        .fact("each of them would be a frame, a picture or a section")
+        .help(format!("give {c} a larger {c}_delta or a shorter range, or ask for fewer --frames"))
+}
+
+fn too_many_sections(name: &str, most: usize) -> Diagnostic {
+    Diagnostic::error("too-many-frames", format!("`{name}` has more than {most} sections to show together"))
+        .help("give the coordinates of type G or C fewer values")
 }
 
 fn no_values(name: &str, axis: &environment::Axis) -> Diagnostic {

@@ -6,6 +6,7 @@ use std::time::Instant;
 use crate::diagnostic::{Category, Diagnostic};
 use crate::export::{self, Part, glb, svg};
 use crate::picture::legend::Telling;
+use crate::picture::paint::Paint;
 use crate::picture::palette::Palette;
 use crate::surface::check::{Topology, check};
 use crate::surface::contour::outlines;
@@ -19,59 +20,140 @@ use super::PictureOptions;
 use super::charts::legend;
 use super::make::{Making, cancelled, empty};
 use super::output::Format;
+use super::paint::colours_of;
 use super::pictures::Artist;
-use super::subject::{Member, Subject};
+use super::subject::{Member, Place, Subject};
 
 /// Pixels along each side of the picture in a 3MF file.
 const THUMBNAIL: usize = 256;
 /// The opacity of the members of a group in a mesh, of 255, but for the last.
 const SHOWS_THROUGH: u8 = 110;
+/// Points whose colours are found together.
+const BATCH: usize = 1 << 14;
 
-impl Making<'_> {
-    /// One mesh a file, or all frames in one, or all sections in one.
+/// An object whose boundary is wanted.
+struct Wanted<'a> {
+    subject: &'a Subject,
+    shape: Shape,
+    paint: Option<Paint>,
+}
+
+/// A boundary as a file holds it.
+struct Body {
+    name: String,
+    mesh: Mesh,
+    colours: Option<Vec<[u8; 3]>>,
+    tint: [u8; 4],
+    line: String,
+}
+
+impl Body {
+    fn part(&self) -> Part<'_> {
+        Part { colours: self.colours.as_deref(), tint: self.tint, ..Part::of(&self.name, &self.mesh) }
+    }
+
+    fn bytes(&self) -> u64 {
+        51 * self.mesh.positions.len() as u64 + 12 * self.mesh.triangles.len() as u64
+    }
+}
+
+impl<'a> Making<'a> {
+    /// One mesh a file, or several objects, all frames or all sections in one.
     pub(super) fn meshes(&mut self) -> Result<(), Diagnostic> {
         self.need(3, "a mesh")?;
+        self.subject.is_alone("a mesh")?;
         let is_glb = self.output.format == Format::Glb;
         let shown = self.subject.shown_by("such a mesh", if is_glb { &["G", "C", "levels"] } else { &[] });
         shown.map_err(|told| if is_glb { told } else { told.help("a .glb holds a group; a .png shows a sheet") })?;
         let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
-        let members = {
-            let _phase = self.shop.interrupt.phase("compile");
-            self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?
-        };
+        let phase = self.shop.interrupt.phase("compile");
+        let members = self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?;
         if members.len() > 1 {
+            drop(phase);
             return self.groups(&grid, &members);
         }
+        let wanted = self.wanted()?;
+        drop(phase);
         if self.holds_all() && self.subject.time.is_some() {
-            return self.moving(&grid, &members[0].shape);
+            return self.moving(&grid, &wanted);
         }
         for (n, moment) in self.moments().into_iter().enumerate() {
             let begun = Instant::now();
-            let (mesh, line) = self.solid(&members[0].shape, &grid, moment)?;
-            self.line(n, &line, begun);
+            let bodies = self.bodies(&wanted, &grid, moment)?;
+            let lines: Vec<&str> = bodies.iter().map(|body| body.line.as_str()).collect();
+            self.line(n, &lines.join("; "), begun);
             let thumbnail = self.thumbnail(moment)?;
             let (format, name) = (self.output.format, self.subject.name.clone());
-            self.put(n, &mut |out| write_mesh(format, &mesh, &name, thumbnail.as_deref(), out))?;
+            let parts: Vec<Part> = bodies.iter().map(Body::part).collect();
+            self.put(n, &mut |out| write_meshes(format, &parts, &name, thumbnail.as_deref(), out))?;
         }
         Ok(())
     }
 
+    /// The objects of the file with their colours.
+    fn wanted(&self) -> Result<Vec<Wanted<'a>>, Diagnostic> {
+        let palette = Palette::from_name(&self.options.picture.palette).unwrap_or_default();
+        let (graph, limits) = (self.shop.graph, self.shop.limits);
+        let coloured = !matches!(self.output.format, Format::Stl);
+        let one = |subject: &'a Subject| {
+            let paint = if coloured { subject.paint(graph, palette, limits)? } else { None };
+            Ok(Wanted { subject, shape: subject.shape(graph, Demand::Sign, limits)?, paint })
+        };
+        [self.subject].into_iter().map(one).collect()
+    }
+
+    /// The boundaries of all objects at a moment; one that is empty beside others is left out.
+    fn bodies(&mut self, wanted: &[Wanted<'a>], grid: &Grid, moment: f64) -> Result<Vec<Body>, Diagnostic> {
+        let (first, mut samples) = (self.subject, 0);
+        let mut bodies = Vec::with_capacity(wanted.len());
+        for one in wanted {
+            // What is told meanwhile is told of that object.
+            self.subject = one.subject;
+            match self.mesh(&one.shape, grid, moment)? {
+                (Some(mesh), line, _) => {
+                    let colours = one.paint.as_ref().map(|paint| self.colours(paint, &mesh, moment)).transpose()?;
+                    bodies.push(Body { name: one.subject.name.to_string(), mesh, colours, tint: [255; 4], line });
+                }
+                (None, _, more) => {
+                    samples += more;
+                    if wanted.len() > 1 {
+                        self.missing("this place");
+                    }
+                }
+            }
+        }
+        self.subject = first;
+        if bodies.is_empty() { Err(empty(first, Some(moment), Some(samples))) } else { Ok(bodies) }
+    }
+
+    /// The colour of each vertex.
+    fn colours(&self, paint: &Paint, mesh: &Mesh, moment: f64) -> Result<Vec<[u8; 3]>, Diagnostic> {
+        let place: Place = self.subject.time.iter().map(|time| (time.coordinate, moment)).collect();
+        let paint = self.subject.painted(paint, &place);
+        let mut all = Vec::with_capacity(mesh.positions.len());
+        for points in mesh.positions.chunks(BATCH) {
+            self.shop.interrupt.tick()?;
+            all.extend(colours_of(&paint, points).into_iter().map(|c| c.map(|share| (share * 255.0).round() as u8)));
+        }
+        Ok(all)
+    }
+
     /// All frames in one file.
-    fn moving(&mut self, grid: &Grid, shape: &Shape) -> Result<(), Diagnostic> {
+    fn moving(&mut self, grid: &Grid, wanted: &[Wanted<'a>]) -> Result<(), Diagnostic> {
         let begun = Instant::now();
-        let mut meshes = Vec::new();
+        let mut frames = Vec::new();
         let mut bytes = 0;
         for moment in self.moments() {
-            let (mesh, _) = self.solid(shape, grid, moment)?;
-            bytes += 48 * mesh.positions.len() as u64 + 12 * mesh.triangles.len() as u64;
+            let bodies = self.bodies(wanted, grid, moment)?;
+            bytes += bodies.iter().map(Body::bytes).sum::<u64>();
             self.subject.within_memory(bytes, self.shop.limits)?;
-            meshes.push(mesh);
+            frames.push(bodies);
         }
-        let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
-        self.line(0, &format!("{} frames, {triangles} triangles", meshes.len()), begun);
+        let triangles: usize = frames.iter().flatten().map(|body| body.mesh.triangles.len()).sum();
+        self.line(0, &format!("{} frames, {triangles} triangles", frames.len()), begun);
         let (delay, name) = (self.delay(), self.subject.name.clone());
-        let parts: Vec<Part> = meshes.iter().map(|mesh| Part::of(&name, mesh)).collect();
-        self.put(0, &mut |out| glb::write_animation(&parts, delay, &name, &mut { out }))
+        let frames: Vec<Vec<Part>> = frames.iter().map(|bodies| bodies.iter().map(Body::part).collect()).collect();
+        self.put(0, &mut |out| glb::write_animation(&frames, delay, &name, &mut { out }))
     }
 
     /// All sections or levels in one file, one file a frame; members that are empty there are left out.
@@ -79,29 +161,25 @@ impl Making<'_> {
         let colours = colours(self.subject, members, &self.options.picture);
         for (n, moment) in self.moments().into_iter().enumerate() {
             let begun = Instant::now();
-            let mut meshes = Vec::new();
-            for (member, colour) in members.iter().zip(&colours) {
+            let mut bodies = Vec::new();
+            for (member, [r, g, b, _]) in members.iter().zip(&colours) {
                 match self.mesh(&member.shape, grid, moment)? {
-                    (Some(mesh), ..) => meshes.push((member, *colour, mesh)),
+                    (Some(mesh), line, _) => {
+                        let (name, tint) = (member.label.clone(), [*r, *g, *b, SHOWS_THROUGH]);
+                        bodies.push(Body { name, mesh, colours: None, tint, line });
+                    }
                     (None, ..) => self.missing(&member.label),
                 }
             }
-            let count = meshes.len();
-            let Some(last) = meshes.last() else { return Err(empty(self.subject, Some(moment), None)) };
-            // Of the levels the last lies within all others.
-            let innermost = if self.subject.levels.is_empty() { "" } else { last.0.label.as_str() };
-            let part = |(member, [r, g, b, _], mesh): &(&Member, [u8; 4], Mesh)| {
-                let opacity = if member.label == innermost { 255 } else { SHOWS_THROUGH };
-                (member.label.clone(), opacity, [*r, *g, *b], mesh.clone())
-            };
-            let owned: Vec<_> = meshes.iter().map(part).collect();
-            let parts: Vec<Part> = owned
-                .iter()
-                .map(|(label, opacity, [r, g, b], mesh)| Part { tint: [*r, *g, *b, *opacity], ..Part::of(label, mesh) })
-                .collect();
-            let triangles: usize = owned.iter().map(|part| part.3.triangles.len()).sum();
-            self.line(n, &format!("a group of {count} with {triangles} triangles"), begun);
+            let Some(last) = bodies.last_mut() else { return Err(empty(self.subject, Some(moment), None)) };
+            if !self.subject.levels.is_empty() {
+                // Of the levels the last lies within all others.
+                last.tint[3] = 255;
+            }
+            let triangles: usize = bodies.iter().map(|body| body.mesh.triangles.len()).sum();
+            self.line(n, &format!("a group of {} with {triangles} triangles", bodies.len()), begun);
             let name = self.subject.name.clone();
+            let parts: Vec<Part> = bodies.iter().map(Body::part).collect();
             self.put(n, &mut |out| glb::write(&parts, &name, &mut { out }))?;
         }
         Ok(())
@@ -110,14 +188,6 @@ impl Making<'_> {
     fn missing(&mut self, label: &str) {
         let title = format!("`{}` is empty at {label}, which is left out", self.subject.name);
         self.written.notes.push(Diagnostic::warning("empty-section", title));
-    }
-
-    /// A mesh that must not be empty, and what there is to say of it.
-    fn solid(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Mesh, String), Diagnostic> {
-        match self.mesh(shape, grid, moment)? {
-            (Some(mesh), line, _) => Ok((mesh, line)),
-            (None, _, samples) => Err(empty(self.subject, Some(moment), Some(samples))),
-        }
     }
 
     /// The checked boundary; none if it is empty.
@@ -160,6 +230,7 @@ impl Making<'_> {
     /// Outlines of a plane figure: one group of paths a section.
     pub(super) fn outlines(&mut self) -> Result<(), Diagnostic> {
         self.need(2, "an outline")?;
+        self.subject.is_alone("an outline")?;
         self.subject.shown_by("an outline", &["G", "C", "levels"])?;
         let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
         let members = self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?;
@@ -190,9 +261,10 @@ impl Making<'_> {
 
     fn cut(&mut self, extraction: &Extraction) {
         let mut faces = Vec::new();
-        for (axis, sides) in self.subject.axes.iter().zip(extraction.report.cut) {
+        let asked = self.subject.cut;
+        for (k, (axis, sides)) in self.subject.axes.iter().zip(extraction.report.cut).enumerate() {
             for (side, (cut, which)) in sides.into_iter().zip(["min", "max"]).enumerate() {
-                if cut {
+                if cut && !asked[k][side] {
                     faces.push(format!("{}{which} = {}", axis.coordinate, axis.range[side]));
                 }
             }
@@ -236,19 +308,19 @@ fn mesh_line(extraction: &Extraction, topology: &Topology) -> String {
     )
 }
 
-fn write_mesh(
+fn write_meshes(
     format: Format,
-    mesh: &Mesh,
+    parts: &[Part<'_>],
     name: &str,
     thumbnail: Option<&[u8]>,
     mut out: &mut dyn Write,
 ) -> io::Result<()> {
-    let part = Part::of(name, mesh);
     match format {
-        Format::Obj => export::obj::write(&[part], &mut out),
-        Format::Ply => export::ply::write(&part, &mut out),
-        Format::Glb => glb::write(&[part], name, &mut out),
-        Format::ThreeMf => export::threemf::write(&[part], thumbnail, name, &mut out),
-        _ => export::stl::write(&part, &mut out),
+        Format::Obj => export::obj::write(parts, &mut out),
+        Format::Glb => glb::write(parts, name, &mut out),
+        Format::ThreeMf => export::threemf::write(parts, thumbnail, name, &mut out),
+        // These hold one object, which was seen to before.
+        Format::Ply => parts.iter().take(1).try_for_each(|part| export::ply::write(part, &mut out)),
+        _ => parts.iter().take(1).try_for_each(|part| export::stl::write(part, &mut out)),
     }
 }

@@ -2,18 +2,20 @@
 
 use std::path::PathBuf;
 
+use crate::diagnostic::near::{Candidate, suggest};
+
 /// What can be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// A mesh of triangles, binary.
     Stl,
-    /// A mesh with normals, text.
+    /// A mesh with normals and colours, text.
     Obj,
-    /// A mesh with normals, binary.
+    /// A mesh with normals and colours, binary.
     Ply,
     /// A mesh with normals and colours, binary, moving over T.
     Glb,
-    /// A mesh for printing, with a picture of it.
+    /// A mesh for printing, with colours and a picture of it.
     ThreeMf,
     /// A picture.
     Png,
@@ -45,10 +47,10 @@ pub enum Kind {
 /// The one list of formats: what is made, its extension, what it is called, what it holds.
 pub const FORMATS: &[(Format, &str, &str, Kind)] = &[
     (Format::Stl, "stl", "a mesh of triangles, binary", Kind::Mesh),
-    (Format::Obj, "obj", "a mesh with normals, text", Kind::Mesh),
-    (Format::Ply, "ply", "a mesh with normals, binary", Kind::Mesh),
+    (Format::Obj, "obj", "a mesh with normals and colours, text", Kind::Mesh),
+    (Format::Ply, "ply", "a mesh with normals and colours, binary", Kind::Mesh),
     (Format::Glb, "glb", "a mesh for viewers, binary; over T it moves, groups show through", Kind::Mesh),
-    (Format::ThreeMf, "3mf", "a mesh for printing, in millimetres", Kind::Mesh),
+    (Format::ThreeMf, "3mf", "a mesh for printing, in millimetres, with colours", Kind::Mesh),
     (Format::Png, "png", "a picture, a graph or a contour map", Kind::Picture),
     (Format::Svg, "svg", "outlines of a plane figure, or slices of a solid (--slices)", Kind::Outlines),
     (Format::Gif, "gif", "an animation over T", Kind::Animation),
@@ -118,7 +120,7 @@ impl Output {
         let path = PathBuf::from(text);
         let format = match path.extension().and_then(|e| e.to_str()) {
             Some(extension) => Format::by_extension(extension)
-                .ok_or_else(|| format!("`{text}`: no format has the extension `.{extension}`; {}", known()))?,
+                .ok_or_else(|| format!("`{text}`: no format has the extension `.{extension}`; {}", meant(extension)))?,
             None => return Err(format!("`{text}` has no extension to tell the format; {}", known())),
         };
         match text.split_once("{n}") {
@@ -140,6 +142,19 @@ pub fn numbered(before: &str, after: &str, n: usize, count: usize) -> PathBuf {
     PathBuf::from(format!("{before}{n:0digits$}{after}"))
 }
 
+/// The extension that was probably meant, or all there are.
+fn meant(extension: &str) -> String {
+    let lower = extension.to_ascii_lowercase();
+    let all = FORMATS.iter().map(|entry| Candidate { name: entry.1, preferred: false });
+    match (suggest(&lower, all).first(), extension) {
+        (Some(near), _) => format!("did you mean `.{near}`?"),
+        (None, "jpg" | "jpeg" | "bmp" | "webp" | "tif" | "tiff") => "a picture is a `.png`".into(),
+        (None, "mp4" | "webm" | "avi") => "an animation is a `.gif` or an `.apng`".into(),
+        (None, "step" | "stp" | "iges" | "off" | "amf" | "fbx" | "gltf") => "a mesh is a `.stl .obj .ply .glb` or `.3mf`".into(),
+        (None, _) => known(),
+    }
+}
+
 fn known() -> String {
     let all: Vec<String> = FORMATS.iter().map(|entry| format!(".{}", entry.1)).collect();
     format!("the formats are {}", all.join(" "))
@@ -154,7 +169,9 @@ mod tests {
         let file = |text: &str| Output::parse(text, None).map(|output| output.format);
         assert_eq!(file("a.stl"), Ok(Format::Stl));
         assert_eq!(file("b/c.d/a.NRRD"), Ok(Format::Nrrd));
-        assert!(file("a.jpg").is_err_and(|e| e.contains(".stl .obj .ply .glb .3mf .png .svg .gif .apng")));
+        assert!(file("a.doc").is_err_and(|e| e.contains(".stl .obj .ply .glb .3mf .png .svg .gif .apng")));
+        assert!(file("a.slt").is_err_and(|e| e.contains("did you mean `.stl`")));
+        assert!(file("a.jpg").is_err_and(|e| e.contains("`.png`")));
         assert!(file("a").is_err_and(|e| e.contains("no extension")));
         assert!(file("-").is_err_and(|e| e.contains("--format")));
         assert_eq!(file("a{n}.glb"), Ok(Format::Glb));

@@ -4,9 +4,9 @@ use crate::diagnostic::Diagnostic;
 use crate::picture::Image;
 
 use super::make::{Workshop, empty};
-use super::pictures::Artist;
+use super::pictures::{Artist, view};
 use super::subject::Subject;
-use super::{Options, View, ask};
+use super::{Background, Options, View, together};
 use crate::model::environment::Object;
 use crate::model::session::Session;
 
@@ -20,7 +20,9 @@ const SMALLEST: usize = 8;
 /// # Errors
 /// Messages for the user: those of a `.png`.
 pub fn preview(session: &mut Session, options: &Options, within: [usize; 2]) -> Result<Image, Vec<Diagnostic>> {
-    let subject = ask::subject(session, &options.view, &options.timing)?;
+    let subject = together::subject(session, &options.view, &options.timing)?;
+    let seen = view(&options.picture).map_err(|told| vec![told])?;
+    let subject = subject.cut(&options.cuts, &seen).map_err(|told| vec![told])?;
     let host = session.host.clone();
     let shop = Workshop { graph: &session.graph, limits: &session.limits, interrupt: &session.interrupt, host: &*host };
     small(&shop, &subject, options, within).map_err(|told| vec![told])
@@ -30,6 +32,8 @@ fn small(shop: &Workshop<'_>, subject: &Subject, options: &Options, within: [usi
     let mut options = options.clone();
     let [width, height] = size(subject, within, options.picture.axes);
     options.picture.size = Some((width, height));
+    // A terminal has a ground of its own, and no way to let it through.
+    options.picture.background = options.picture.background.filter(|ground| *ground != Background::Transparent);
     let mut moments = subject.moments();
     moments.truncate(1);
     let artist = Artist::new(shop, subject, &options, &moments)?;

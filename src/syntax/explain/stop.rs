@@ -3,6 +3,7 @@
 
 use super::place::{Place, begins_statement, definition_head};
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::near::foreign;
 use crate::syntax::scan::{Token, TokenKind, coordinate_digits, is_reserved};
 
 /// Where a statement ends without its `;` and the next begins.
@@ -264,7 +265,7 @@ fn between(around: &Around<'_>) -> Option<Diagnostic> {
     if complete && operand {
         let last = before?;
         let title = format!("an operator is missing between `{}` and `{found}`", last.text(text));
-        let help = separator(around, last, token);
+        let help = foreign(last.text(text)).unwrap_or_else(|| separator(around, last, token));
         return Some(error("missing-operator", title).at(span, "").see(around.place.span(last), "").help(help));
     }
     if around.is(before, "AT") {
@@ -314,6 +315,9 @@ fn separator(around: &Around<'_>, last: Token, token: Token) -> &'static str {
     match enclosing(around) {
         _ if last.kind == TokenKind::Number && token.kind == TokenKind::Number && last.end == token.start => {
             "a number has one point"
+        }
+        _ if token.kind == TokenKind::Open && last.kind == TokenKind::Close => {
+            "to take the value at a point write AT between: `... AT (1, 2)`; for a product `*`"
         }
         _ if last.end == token.start => "for a product write `*` between",
         Some((bracket, word)) if bracket == "[" || !word.is_empty() => "put an operator or `,` between",

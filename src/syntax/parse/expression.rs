@@ -258,6 +258,13 @@ impl<'t> Builder<'t> {
         let kind = match op.as_rule() {
             Rule::op_power => ExprKind::Power { base: Box::new(left), exponent: Box::new(right) },
             Rule::op_compare | Rule::assign => {
+                // After the `=` of an argument a NOT may stand, which elsewhere needs the parentheses that the tree gets here.
+                let right = match right.kind {
+                    ExprKind::Prefix { op: PrefixOp::Not, .. } => {
+                        Expr { span: right.span, kind: ExprKind::Paren(Box::new(right)) }
+                    }
+                    _ => right,
+                };
                 let kind = compare(left, compare_op(op.as_str()), at, right);
                 self.suspicious_chain(&kind, span);
                 kind

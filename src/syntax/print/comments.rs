@@ -47,14 +47,15 @@ impl<'t> Comments<'t> {
             let space = &self.text[after..start];
             // The first gap of a text has nothing to stand behind.
             let behind = after > 0 && newlines(space) == 0 && self.ends_line(end, to);
-            if newlines(space) > 1 {
+            if newlines(space) > 1 || ended(&items, space) {
                 items.push(Gap::Blank);
             }
             let comment = self.text[start..end].trim_end();
             items.push(if behind { Gap::Trailing(comment) } else { Gap::Own(comment) });
             after = end;
         }
-        if newlines(&self.text[after..to.max(after)]) > 1 {
+        let space = &self.text[after..to.max(after)];
+        if newlines(space) > 1 || ended(&items, space) {
             items.push(Gap::Blank);
         }
         items
@@ -85,6 +86,12 @@ impl<'t> Comments<'t> {
     pub fn between(&self, from: usize, to: usize) -> usize {
         self.within(from, to).len()
     }
+}
+
+/// Whether an empty statement parts a comment from what follows, which it then does not document. The formatter drops the statement, so a
+/// blank line has to part them.
+fn ended(before: &[Gap<'_>], space: &str) -> bool {
+    matches!(before.last(), Some(Gap::Own(_))) && space.contains(';')
 }
 
 fn newlines(space: &str) -> usize {

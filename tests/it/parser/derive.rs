@@ -26,9 +26,7 @@ const DEEP: usize = 22;
 
 impl Grammar {
     pub fn read() -> Self {
-        let pairs = parser::parse(parser::Rule::grammar_rules, TEXT).expect("a grammar");
-        let rules = parser::consume_rules(pairs).expect("rules");
-        let rules: BTreeMap<String, Rule> = rules.into_iter().map(|rule| (rule.name.clone(), rule)).collect();
+        let rules: BTreeMap<String, Rule> = texts().iter().map(|text| one(text)).collect();
         let mut reserved = Vec::new();
         for part in rules["reserved"].expr.iter_top_down() {
             if let Expr::Insens(word) = part {
@@ -91,6 +89,29 @@ impl Grammar {
         }
         parts
     }
+}
+
+/// The text of each rule: from a line that begins with a name to the next one.
+fn texts() -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for line in TEXT.lines().filter(|line| !line.trim_start().starts_with("//")) {
+        if line.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            all.push(String::new());
+        }
+        if let Some(last) = all.last_mut() {
+            last.push_str(line);
+            last.push('\n');
+        }
+    }
+    all
+}
+
+/// One rule at a time: the whole process has one limit of calls for pest, and other tests set it to what they need.
+fn one(text: &str) -> (String, Rule) {
+    let pairs = parser::parse(parser::Rule::grammar_rules, text).unwrap_or_else(|error| panic!("{text}\n{error}"));
+    let mut rules = parser::consume_rules(pairs).unwrap_or_else(|errors| panic!("{text}\n{errors:?}"));
+    let rule = rules.pop().expect("a rule");
+    (rule.name.clone(), rule)
 }
 
 fn place(expr: &Expr) -> usize {
