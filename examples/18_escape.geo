@@ -4,7 +4,7 @@
             a box goes the same way; a section of a four-dimensional object.
   Run:      yont examples/18_escape.geo -o escape.png
             yont examples/18_escape.geo -o escape.stl --resolution 128 -v
-  Expected: a curled solid in one piece; boxes spare most of the evaluations (-v tells) }
+  Expected: a curled solid with holes; -v tells how many turns the loop took }
 
 { The real part and the three imaginary parts of c }
 c = [-0.213, -0.0410, -0.563, -0.560];
