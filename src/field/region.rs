@@ -138,7 +138,7 @@ impl Form {
 impl Region {
     /// A region over a graph without maps.
     #[must_use]
-    pub fn new(graph: Graph, form: Form) -> SharedRegion {
+    pub fn shared(graph: Graph, form: Form) -> SharedRegion {
         let inner = graph.nodes().iter().filter_map(|node| match node {
             Node::Region(region, ..) => Some(region.0.depth),
             _ => None,
@@ -324,7 +324,7 @@ impl Graph {
         let cut = cut(self, &roots, &names, limit)?;
         let guards = guards(&cut.graph, cut.roots[0], variables.len());
         let form = Form::Loop { condition: cut.roots[0], next: cut.roots[1..].into(), guards };
-        let region = shallow(Region::new(cut.graph, form))?;
+        let region = shallow(Region::shared(cut.graph, form))?;
         let arguments = variables.iter().map(|v| v.1).chain(cut.captured).collect();
         Ok(self.outputs_of(&region, &arguments))
     }
@@ -345,7 +345,7 @@ impl Graph {
         let body = cut.roots[0];
         let slope = derivative(&mut cut.graph, body, Coordinate(1));
         let continuous = is_continuous(&cut.graph, body);
-        let region = shallow(Region::new(cut.graph, Form::Section { body, slope, continuous }))?;
+        let region = shallow(Region::shared(cut.graph, Form::Section { body, slope, continuous }))?;
         let arguments: Arc<[NodeId]> = [lo, hi].into_iter().chain(cut.captured).collect();
         Ok(self.outputs_of(&region, &arguments)[0])
     }
@@ -357,7 +357,7 @@ impl Graph {
     pub fn ball(&mut self, body: NodeId, over: &[Coordinate], radius: NodeId, limit: usize) -> Result<NodeId, Refused> {
         let cut = cut(self, &[body], over, limit)?;
         let form = Form::Ball { body: cut.roots[0], dimension: over.len() };
-        let region = shallow(Region::new(cut.graph, form))?;
+        let region = shallow(Region::shared(cut.graph, form))?;
         let centre: Vec<NodeId> = over.iter().map(|c| self.coordinate(*c)).collect();
         let arguments: Arc<[NodeId]> = centre.into_iter().chain([radius]).chain(cut.captured).collect();
         Ok(self.outputs_of(&region, &arguments)[0])

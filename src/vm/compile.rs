@@ -198,6 +198,9 @@ pub(crate) fn extreme_of(op: Ternary, parameter: Option<f64>) -> Option<Binary> 
     }
 }
 
+/// A region with its arguments.
+type Applied = (SharedRegion, Arc<[NodeId]>);
+
 struct Emitter<'a> {
     graph: &'a Graph,
     inputs: &'a [Coordinate],
@@ -212,7 +215,7 @@ struct Emitter<'a> {
     /// Compiled regions, whatever their arguments.
     compiled: FxHashMap<SharedRegion, Arc<RegionProgram>>,
     /// The number of each region with its arguments, and its value.
-    running: FxHashMap<(SharedRegion, Arc<[NodeId]>), (u32, Value)>,
+    running: FxHashMap<Applied, (u32, Value)>,
 }
 
 impl<'a> Emitter<'a> {

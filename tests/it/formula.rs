@@ -46,7 +46,14 @@ fn object_values(session: &mut Session, name: &str) -> Vec<f64> {
 fn come_back(session: &mut Session, what: &str) -> usize {
     let names = session.objects();
     for name in &names {
-        let formula = session.formula(name, None).unwrap_or_else(|told| panic!("{what}: {name}: {told:?}"));
+        let formula = match session.formula(name, None) {
+            // A loop that runs at each point is no expression, and is refused in words.
+            Err(told) if what.contains("18_escape") => {
+                assert!(told.iter().any(|d| d.code == "not-an-expression"), "{told:?}");
+                continue;
+            }
+            formula => formula.unwrap_or_else(|told| panic!("{what}: {name}: {told:?}")),
+        };
         let mut again = self::session();
         let outcome = again.input("formula", &formula.text, Mode::Script);
         assert!(outcome.accepted, "{what}: {name}: {}\n{}", messages(&outcome), formula.text);

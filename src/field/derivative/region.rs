@@ -96,7 +96,7 @@ impl Rules<'_> {
         }
         let guards = guards.iter().zip(&copies[count + 1..]).map(|(guard, holds)| Guard { holds: *holds, ..*guard });
         let form = Form::Loop { condition: copies[0], next: steps.into(), guards: guards.collect() };
-        let shared = Region::new(graph, form);
+        let shared = Region::shared(graph, form);
         let which = slope_of[output] - 1;
         Some(self.graph.intern(Node::Region(shared, which as u32, made.into())))
     }

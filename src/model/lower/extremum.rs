@@ -21,7 +21,7 @@ impl Lower<'_> {
         let value = self.expr(e)?;
         let (lo_value, hi_value) = (self.section_end(lo, over)?, self.section_end(hi, over)?);
         if let (Scalar::Number(a), Scalar::Number(b)) = (lo_value, hi_value)
-            && !(a <= b)
+            && (a > b || a.is_nan() || b.is_nan())
         {
             return Err(errors::empty_range(a, b, lo.span.to(hi.span)).into());
         }
