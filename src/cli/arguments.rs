@@ -10,7 +10,8 @@ use crate::picture::camera::View;
 use crate::picture::palette::Palette;
 
 use super::values::{
-    Assignment, Extent, Section, Size, Slices, angles, assignment, extent, positive, section, size, slices,
+    Assignment, Camera, Cutting, Extent, Ground, Section, Size, Slices, angles, assignment, background, camera, cut,
+    extent, positive, section, size, slices,
 };
 
 /// The whole command line.
@@ -46,7 +47,7 @@ fn after_help() -> String {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Runs a program; what `yont FILE` does
-    Run(Run),
+    Run(Box<Run>),
     /// Each object: dimension, coordinates and types, bounds, size of its program
     Info(Info),
     /// Volume, area, centroid, inertia, bounding box and genus, with error estimates
@@ -107,6 +108,32 @@ pub enum When {
     Never,
 }
 
+/// Whether there is something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// There is
+    On,
+    /// There is not
+    Off,
+}
+
+impl Switch {
+    /// Whether it is on.
+    #[must_use]
+    pub fn is_on(self) -> bool {
+        self == Self::On
+    }
+}
+
+/// How space is projected onto a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Rays {
+    /// What is farther looks smaller
+    Perspective,
+    /// It does not
+    Orthographic,
+}
+
 /// The renderings of diagnostics.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Rendering {
@@ -136,9 +163,9 @@ pub struct Program {
 /// Which object, and which part of its space.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 pub struct Subject {
-    /// The object; by default the last `gob_` that is defined
-    #[arg(long, value_name = "NAME")]
-    pub object: Option<String>,
+    /// The object; by default the last `gob_` that is defined. Repeatable: a picture shows several
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub object: Vec<String>,
     /// Hold a coordinate at a value (a section), repeatable
     #[arg(long, value_name = "xN=VALUE", value_parser = section, value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Section>,
@@ -165,9 +192,34 @@ pub struct Look {
     /// Pixels of a picture, of each picture in a sheet; by default a size that suits the object
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<Size>,
-    /// Where the camera stands, in degrees: around the object from its front, and above it; instead of --view
-    #[arg(long, value_name = "AROUND,ABOVE", value_parser = angles, conflicts_with = "view", allow_hyphen_values = true)]
-    pub camera: Option<[f64; 2]>,
+    /// Where the camera stands, in degrees: around the object from its front, and above it; or the place of the eye, X,Y,Z;
+    /// instead of --view
+    #[arg(long, value_name = "AROUND,ABOVE", value_parser = camera, conflicts_with = "view", allow_hyphen_values = true)]
+    pub camera: Option<Camera>,
+    /// Whether what is farther looks smaller; by default with --camera, not with --view
+    #[arg(long, value_name = "RAYS")]
+    pub projection: Option<Rays>,
+    /// Where the light stands, in degrees: around the object from its front, and above it; by default at the camera's left shoulder
+    #[arg(long, value_name = "AROUND,ABOVE", value_parser = angles, allow_hyphen_values = true)]
+    pub light: Option<[f64; 2]>,
+    /// The second, weaker light (default on)
+    #[arg(long, value_name = "SWITCH")]
+    pub fill: Option<Switch>,
+    /// Shadows of the light (default on)
+    #[arg(long, value_name = "SWITCH")]
+    pub shadow: Option<Switch>,
+    /// The same as --shadow off
+    #[arg(long, conflicts_with = "shadow")]
+    pub no_shadow: bool,
+    /// Ambient occlusion: hollows and corners get less light from the sky (default off)
+    #[arg(long, value_name = "SWITCH", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
+    pub occlusion: Option<Switch>,
+    /// What stands behind the object: a colour (white, black, #ffcc00) or `transparent`
+    #[arg(long, value_name = "COLOUR", value_parser = background)]
+    pub background: Option<Ground>,
+    /// Cut a solid at a plane, repeatable: x1=0 takes away the half on the side of the camera, x1<0 keeps that half
+    #[arg(long, value_name = "xN=VALUE", value_parser = cut, allow_hyphen_values = true)]
+    pub cut: Vec<Cutting>,
     /// The side that the camera looks from
     #[arg(long, value_name = "SIDE", value_parser = views())]
     pub view: Option<String>,

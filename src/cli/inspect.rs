@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use crate::model::Session;
 use crate::model::request::{self, Info};
+use crate::model::{Session, settings};
 
 use super::arguments::{self, Making};
 use super::console::Console;
@@ -56,7 +56,7 @@ pub fn measure(console: &Console, signals: &Signals, options: &arguments::Measur
 pub fn measure_one(console: &Console, session: &mut Session, making: &Making, json: bool) -> Result<Status, Status> {
     let measured = {
         let _progress = console.progress(session.interrupt(), "measuring");
-        request::measure(session, &view(making))
+        settings::defaults(session).and_then(|defaults| request::measure(session, &view(making, &defaults.view)))
     };
     match measured {
         Ok(measured) if json => console.print(&measured.json().to_string()).map(|()| Status::Done),

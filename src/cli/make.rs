@@ -4,24 +4,24 @@ use std::io::BufWriter;
 use std::time::Instant;
 
 use crate::field::Coordinate;
-use crate::model::Session;
 use crate::model::request::{self, Cells, Options, Output, PictureOptions, Sequence, Target, Timing, View, Written};
+use crate::model::{Session, settings};
 
-use super::arguments::Making;
+use super::arguments::{Making, Rays, Switch};
 use super::console::Console;
 use super::status::Status;
 
-/// Which object, which part of its space, how finely.
+/// Which object, which part of its space, how finely; options win over what the program sets.
 #[must_use]
-pub fn view(making: &Making) -> View {
-    let default = View::default();
+pub fn view(making: &Making, default: &View) -> View {
     let cells = match (making.fineness.cell, making.fineness.resolution) {
         (Some(length), _) => Cells::Length(length),
         (None, Some(count)) => Cells::Along(count),
         (None, None) => default.cells,
     };
     View {
-        object: making.subject.object.clone(),
+        object: making.subject.object.first().cloned(),
+        beside: making.subject.object.iter().skip(1).cloned().collect(),
         at: making.subject.at.iter().map(|section| (Coordinate(section.coordinate), section.value)).collect(),
         bounds: making
             .subject
@@ -32,6 +32,7 @@ pub fn view(making: &Making) -> View {
         cells,
     }
 }
+
 /// Makes one output and tells what was made.
 ///
 /// # Errors
@@ -46,7 +47,8 @@ pub fn make(console: &Console, session: &mut Session, making: &Making, output: &
     let made = {
         let _progress = console.progress(session.interrupt(), &words);
         let mut standard = BufWriter::new(std::io::stdout().lock());
-        request::write(session, output, &options(making), &mut standard)
+        settings::defaults(session)
+            .and_then(|defaults| request::write(session, output, &options(making, defaults), &mut standard))
     };
     console.timing(&words, begun.elapsed());
     let written = match made {
@@ -69,22 +71,29 @@ fn tell(console: &Console, written: &Written) {
     }
 }
 
-/// Everything that decides what is made.
+/// Everything that decides what is made; options win over what the program sets.
 #[must_use]
-pub fn options(making: &Making) -> Options {
-    let (picture, timing) = (PictureOptions::default(), Timing::default());
+pub fn options(making: &Making, defaults: Options) -> Options {
+    let Options { view: own, picture, timing, .. } = defaults;
     let look = &making.look;
-    let camera = look.camera.map(|[around, above]| format!("{around},{above}"));
+    let camera = look.camera.as_ref().map(ToString::to_string);
     Options {
-        view: view(making),
+        view: view(making, &own),
         picture: PictureOptions {
-            size: look.size.map(|size| (size.width, size.height)),
+            size: look.size.map(|size| (size.width, size.height)).or(picture.size),
             supersample: look.supersample.unwrap_or(picture.supersample),
             view: camera.or_else(|| look.view.clone()).unwrap_or(picture.view),
+            parallel: look.projection.map(|projection| projection == Rays::Orthographic).or(picture.parallel),
+            light: look.light.or(picture.light),
+            fill: look.fill.map_or(picture.fill, Switch::is_on),
+            shadow: if look.no_shadow { false } else { look.shadow.map_or(picture.shadow, Switch::is_on) },
+            occlusion: look.occlusion.map_or(picture.occlusion, Switch::is_on),
+            background: look.background.map(|ground| ground.0).or(picture.background),
             palette: look.palette.clone().unwrap_or(picture.palette),
-            axes: look.axes,
+            axes: look.axes || picture.axes,
         },
-        timing: Timing { frames: making.motion.frames, fps: making.motion.fps.unwrap_or(timing.fps) },
+        timing: Timing { frames: making.motion.frames.or(timing.frames), fps: making.motion.fps.unwrap_or(timing.fps) },
         slices: look.slices.map(|s| Sequence { coordinate: Coordinate(s.coordinate), values: s.places() }),
+        cuts: look.cut.iter().map(|cut| cut.0).collect(),
     }
 }

@@ -74,7 +74,7 @@ fn timed(cli: Cli, signals: &Signals, prompt: fn(Prompt) -> Status) -> Status {
 fn dispatch(cli: Cli, console: &Console, signals: &Signals, prompt: fn(Prompt) -> Status) -> Result<Status, Status> {
     match cli.command {
         None => run::run(console, signals, cli.run, prompt),
-        Some(Command::Run(run)) => run::run(console, signals, run, prompt),
+        Some(Command::Run(run)) => run::run(console, signals, *run, prompt),
         Some(Command::Info(info)) => inspect::info(console, signals, &info),
         Some(Command::Measure(measure)) => inspect::measure(console, signals, &measure),
         Some(Command::Sample(sample)) => sample::sample(console, signals, &sample),

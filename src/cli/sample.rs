@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use crate::host::{Disk, FileError, Host, Reason};
-use crate::model::request::{self, Sampled};
+use crate::model::request::{self, Sampled, View};
 
 use super::arguments::{Making, Sample};
 use super::console::Console;
@@ -28,7 +28,7 @@ pub fn sample(console: &Console, signals: &Signals, options: &Sample) -> Result<
     let making = Making { subject: options.subject.clone(), ..Making::default() };
     let sampled = {
         let _progress = console.progress(session.interrupt(), "points");
-        request::sample(&mut session, &view(&making), &points, options.gradient)
+        request::sample(&mut session, &view(&making, &View::default()), &points, options.gradient)
     };
     match sampled {
         Ok(values) => put(console, options.output.as_deref(), &values),

@@ -7,6 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::host::{self, Disk, FileError, Host};
 use crate::limits::Limits;
 use crate::model::environment::is_setting;
+use crate::model::settings;
 use crate::model::{Event, Outcome, Session};
 use crate::syntax::Mode;
 
@@ -70,7 +71,7 @@ pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(
 
 /// A warning for a definition of the command line that changes nothing: most likely its name is misspelt.
 fn unread(session: &Session, name: &str) -> Option<Diagnostic> {
-    let serves = name.starts_with("gob_") || is_system(name) || is_setting(name);
+    let serves = name.starts_with("gob_") || is_system(name) || is_setting(name) || settings::is_setting(name);
     if serves || session.deps(name).is_some_and(|deps| !deps.readers.is_empty()) {
         return None;
     }

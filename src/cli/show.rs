@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 
 use crate::export::terminal::{self, Drawing};
 use crate::host::variable;
-use crate::model::Session;
+use crate::model::{Session, settings};
 use crate::model::request;
 
 use super::arguments::{Images, Making};
@@ -86,7 +86,8 @@ fn room(drawing: Drawing) -> [usize; 2] {
 pub fn show(console: &Console, session: &mut Session, making: &Making, drawing: Drawing) -> Result<Status, Status> {
     let made = {
         let _progress = console.progress(session.interrupt(), "picture");
-        request::preview(session, &options(making), room(drawing))
+        settings::defaults(session)
+            .and_then(|defaults| request::preview(session, &options(making, defaults), room(drawing)))
     };
     match made {
         Ok(image) => console.write(|out| terminal::write(&image, drawing, out)).map(|()| Status::Done),
@@ -102,7 +103,8 @@ pub fn glance(console: &Console, session: &mut Session, making: &Making) -> Resu
     let Some(drawing) = drawing(making.display.images) else { return Ok(()) };
     let made = {
         let _progress = console.progress(session.interrupt(), "picture");
-        request::preview(session, &options(making), room(drawing))
+        settings::defaults(session)
+            .and_then(|defaults| request::preview(session, &options(making, defaults), room(drawing)))
     };
     match made {
         Ok(image) => console.write(|out| terminal::write(&image, drawing, out)),

@@ -8,6 +8,7 @@ use crate::builtins;
 use crate::diagnostic::near::{Candidate, suggest};
 use crate::host::{Disk, Host};
 use crate::limits::Limits;
+use crate::model::settings;
 use crate::source::SourceMap;
 use crate::syntax::print::format;
 
@@ -22,7 +23,10 @@ pub fn check(console: &Console, signals: &Signals, options: &Check) -> Result<St
     let mut status = Status::Done;
     for file in &options.files {
         let program = Program { file: Some(file.clone()), ..Program::default() };
-        status = status.or(session::open(console, signals, &program).err().unwrap_or_default());
+        status = status.or(match session::open(console, signals, &program) {
+            Ok((session, _)) => console.report(session.sources(), &settings::check(&session)),
+            Err(failed) => failed,
+        });
     }
     Ok(status)
 }

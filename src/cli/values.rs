@@ -1,5 +1,8 @@
 //! The values of options: how they are written and what they must be. Each refusal says what would do.
 
+use crate::field::Coordinate;
+use crate::model::request::{Background, Cut, Half};
+
 /// Slices that one output may have.
 const MOST_SLICES: usize = 10_000;
 
@@ -63,6 +66,46 @@ pub struct Size {
     pub height: usize,
 }
 
+/// `--camera 35,24`: degrees around and above; or `4,-5,3`, the place of the eye.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera(pub Vec<f64>);
+
+impl std::fmt::Display for Camera {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let all: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&all.join(","))
+    }
+}
+
+/// `--background white`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ground(pub Background);
+
+impl std::fmt::Display for Ground {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            Background::Transparent => f.write_str("transparent"),
+            Background::Colour([r, g, b]) => write!(f, "#{r:02x}{g:02x}{b:02x}"),
+        }
+    }
+}
+
+/// `--cut x1=0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cutting(pub Cut);
+
+impl std::fmt::Display for Cutting {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Cut { coordinate, value, keep } = self.0;
+        let mark = match keep {
+            None => '=',
+            Some(Half::Below) => '<',
+            Some(Half::Above) => '>',
+        };
+        write!(f, "{coordinate}{mark}{value}")
+    }
+}
+
 /// Reads `NAME=EXPR`.
 pub fn assignment(text: &str) -> Result<Assignment, String> {
     let (name, expression) = split(text, '=', "NAME=EXPR, as in r1=4")?;
@@ -115,6 +158,42 @@ pub fn angles(text: &str) -> Result<[f64; 2], String> {
     if above.abs() <= 90.0 { Ok([around, above]) } else { Err(format!("{above} is not from -90 to 90 degrees")) }
 }
 
+/// Reads `35,24`, degrees around and above, or `4,-5,3`, a point.
+pub fn camera(text: &str) -> Result<Camera, String> {
+    if text.split(',').count() == 3 {
+        return text.split(',').map(finite).collect::<Result<_, _>>().map(Camera);
+    }
+    angles(text).map(|angles| Camera(angles.into())).map_err(|told| {
+        if told.starts_with("expected") {
+            "expected AROUND,ABOVE in degrees, as in 35,24, or X,Y,Z".into()
+        } else {
+            told
+        }
+    })
+}
+
+/// Reads `white`, `#ffcc00` or `transparent`.
+pub fn background(text: &str) -> Result<Ground, String> {
+    Background::from_name(text).map(Ground).ok_or_else(|| {
+        format!("`{text}` is no background: expected a colour, {} or #rrggbb, or `transparent`", Background::NAMES)
+    })
+}
+
+/// Reads `x1=0`, `x1<0` or `x1>0`.
+pub fn cut(text: &str) -> Result<Cutting, String> {
+    let form = "xN=VALUE, xN<VALUE or xN>VALUE, as in x1=0";
+    let mark = text.find(['=', '<', '>']).and_then(|at| text[at..].chars().next()).ok_or(format!("expected {form}"))?;
+    let (name, value) = split(text, mark, form)?;
+    let keep = match mark {
+        '<' => Some(Half::Below),
+        '>' => Some(Half::Above),
+        _ => None,
+    };
+    // `x1<=0` means the same: the plane belongs to both halves.
+    let value = if keep.is_some() { value.strip_prefix('=').unwrap_or(value) } else { value };
+    Ok(Cutting(Cut { coordinate: Coordinate(coordinate(name)?), value: finite(value)?, keep }))
+}
+
 /// Reads a whole number from 1.
 pub fn positive(text: &str) -> Result<usize, String> {
     match text.trim().parse() {
@@ -159,11 +238,19 @@ mod tests {
         assert_eq!(slices("x3=2:2:1").map(|s| s.places()), Ok(vec![2.0]));
         assert_eq!(size("3x4"), Ok(Size { width: 3, height: 4 }));
         assert_eq!(angles("120,-30"), Ok([120.0, -30.0]));
+        assert_eq!(camera("120,-30"), Ok(Camera(vec![120.0, -30.0])));
+        assert_eq!(camera("4,-5,3").map(|c| c.to_string()), Ok("4,-5,3".into()));
+        assert_eq!(background("#FFcc00"), Ok(Ground(Background::Colour([255, 204, 0]))));
+        assert_eq!(background("Transparent"), Ok(Ground(Background::Transparent)));
+        let half = |text: &str| cut(text).map(|c| (c.0.coordinate.0, c.0.value, c.0.keep));
+        assert_eq!(half("x1=-.5"), Ok((1, -0.5, None)));
+        assert_eq!(half("x2 < 3"), Ok((2, 3.0, Some(Half::Below))));
+        assert_eq!(half("x3>=0"), Ok((3, 0.0, Some(Half::Above))));
     }
 
     #[test]
     fn refusals_say_what_would_do() {
-        let cases: [(Result<(), String>, &str); 11] = [
+        let cases: [(Result<(), String>, &str); 16] = [
             (assignment("r1").map(drop), "expected NAME=EXPR"),
             (assignment("1r=2").map(drop), "`1r` is not a name"),
             (section("x17=1").map(drop), "x1, x2, ... x16"),
@@ -175,6 +262,11 @@ mod tests {
             (slices("x3=0:1:100000").map(drop), "more than 10000"),
             (size("0x4").map(drop), "at least 1"),
             (angles("1,91").map(drop), "-90 to 90"),
+            (camera("1").map(drop), "or X,Y,Z"),
+            (camera("1,2,x").map(drop), "`x` is not a number"),
+            (background("#12345").map(drop), "#rrggbb"),
+            (cut("x1").map(drop), "expected xN=VALUE"),
+            (cut("x17<2").map(drop), "x1, x2, ... x16"),
         ];
         for (result, words) in cases {
             let message = result.expect_err(words);

@@ -16,6 +16,7 @@ pub mod oracle;
 mod report;
 pub mod request;
 mod session;
+pub mod settings;
 mod stack;
 mod state;
 pub mod value;

@@ -298,6 +298,17 @@ impl State {
         self.readers.get(name).into_iter().flat_map(Readers::iter)
     }
 
+    /// Whether a definition or a type that matters reads a name.
+    #[must_use]
+    pub fn is_read(&self, name: &str) -> bool {
+        let mut readers = self.readers(name).peekable();
+        // Most names of settings are read by nothing, so that what matters need not be found.
+        readers.peek().is_some() && {
+            let live = self.live();
+            self.readers(name).any(|reader| live.contains(&reader.id))
+        }
+    }
+
     /// The definitions that are linked to this one: its extensions, and those whose operators use the system that it sets.
     pub fn dependents(&self, id: DefinitionId) -> impl Iterator<Item = Arc<Definition>> {
         self.dependents.get(&id).into_iter().flat_map(Readers::iter)

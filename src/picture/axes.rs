@@ -135,6 +135,8 @@ pub struct Look {
     pub thin: f32,
     /// Width of curves in pixels.
     pub thick: f32,
+    /// The colour of letters and lines.
+    pub ink: [u8; 4],
 }
 
 impl Look {
@@ -142,13 +144,20 @@ impl Look {
     #[must_use]
     pub fn of(width: usize, height: usize) -> Self {
         let text = (width.min(height).min(LARGEST) as f32 / 36.).clamp(9., 64.);
-        Look { text, thin: (text / 13.).round().max(1.), thick: text / 6.8 }
+        Look { text, thin: (text / 13.).round().max(1.), thick: text / 6.8, ink: INK }
+    }
+
+    /// The same sizes with an ink that stands out from a ground; on one that lets all through the usual one.
+    #[must_use]
+    pub fn on(self, [r, g, b, a]: [u8; 4]) -> Self {
+        let bright = 2 * u32::from(r) + 5 * u32::from(g) + u32::from(b);
+        if a > 0 && bright < 8 * 110 { Look { ink: PAPER, ..self } } else { self }
     }
 
     /// Lettering of this size in ink.
     #[must_use]
     pub fn lettering(&self, across: Across, upright: Upright) -> Lettering {
-        Lettering { size: self.text, colour: INK, across, upright, turn: 0. }
+        Lettering { size: self.text, colour: self.ink, across, upright, turn: 0. }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Axes about a solid: the rear faces of its box with grid lines behind it, numbers and names along the box's outline. Casts no rays.
 
-use super::axes::{Axis, GRID, INK, Look, PAPER, ticks};
+use super::axes::{Axis, GRID, Look, PAPER, ticks};
 use super::camera::Camera;
 use super::canvas::{Canvas, Pen};
 use super::image::Image;
@@ -9,17 +9,34 @@ use super::text::{self, Across, Lettering, Upright};
 
 const FACE: [u8; 4] = [246, 247, 249, 255];
 const EDGE: [u8; 4] = [120, 120, 120, 255];
+/// How opaque faces, grid lines and edges are on a ground of another colour, where they are of ink.
+const THIN: [u8; 3] = [10, 40, 130];
 
 /// Puts the axes of a box behind a picture with a transparent ground, seen by the same camera, and room for numbers around it. Through
-/// an opaque picture nothing of the box is seen but what lies around it. None if there is no memory for it.
+/// an opaque picture nothing of the box is seen but what lies around it. `ground` is what the box stands on, white unless told. None if
+/// there is no memory for it.
 #[must_use]
-pub fn behind(image: &Image, camera: &Camera, space: Space, names: &[String; 3]) -> Option<Image> {
-    let look = Look::of(image.width, image.height);
+pub fn behind(
+    image: &Image,
+    camera: &Camera,
+    space: Space,
+    names: &[String; 3],
+    ground: Option<[u8; 4]>,
+) -> Option<Image> {
+    let look = Look::of(image.width, image.height).on(ground.unwrap_or(PAPER));
     let margin = (look.text * 4.).ceil();
     let size = [image.width, image.height].map(|n| n + 2 * margin as usize);
-    let mut canvas = Canvas::new(size[0], size[1], PAPER)?;
+    let mut canvas = Canvas::new(size[0], size[1], ground.unwrap_or(PAPER))?;
     let axes = [0, 1, 2].map(|k| Axis::new(names[k].clone(), space.lo[k], space.hi[k]));
-    let scene = Scene { camera, space, axes, picture: [image.width as f64, image.height as f64], margin, look };
+    let scene = Scene {
+        camera,
+        space,
+        axes,
+        picture: [image.width as f64, image.height as f64],
+        margin,
+        look,
+        plain: ground.is_none(),
+    };
     for axis in 0..3 {
         for high in [false, true] {
             if !scene.faces(axis, high) {
@@ -42,9 +59,17 @@ struct Scene<'a> {
     picture: [f64; 2],
     margin: f32,
     look: Look,
+    /// Whether it stands on white paper.
+    plain: bool,
 }
 
 impl Scene<'_> {
+    /// The colours of faces, grid lines and edges.
+    fn colours(&self) -> [[u8; 4]; 3] {
+        let [r, g, b, _] = self.look.ink;
+        if self.plain { [FACE, GRID, EDGE] } else { THIN.map(|a| [r, g, b, a]) }
+    }
+
     /// The pixel of a point; none behind the eye.
     fn at(&self, point: [f64; 3]) -> Option<[f32; 2]> {
         let camera = self.camera;
@@ -84,8 +109,9 @@ impl Scene<'_> {
         };
         let outline = [(false, false), (true, false), (true, true), (false, true)].map(|(p, q)| corner(p, q));
         let Some(points) = outline.iter().map(|&p| self.at(p)).collect::<Option<Vec<_>>>() else { return };
-        canvas.fill(&points, FACE);
-        let pen = Pen::solid(GRID, self.look.thin);
+        let [face, grid, edge] = self.colours();
+        canvas.fill(&points, face);
+        let pen = Pen::solid(grid, self.look.thin);
         for (along, across) in [(a, b), (b, a)] {
             for value in self.marks(along) {
                 let mut ends = [corner(false, false); 2];
@@ -96,7 +122,7 @@ impl Scene<'_> {
                 }
             }
         }
-        canvas.line(&points, true, &Pen::solid(EDGE, self.look.thin));
+        canvas.line(&points, true, &Pen::solid(edge, self.look.thin));
     }
 
     /// The values marked on an axis: the same on faces and on the outline.
@@ -138,12 +164,12 @@ impl Scene<'_> {
             let mut point = self.corner(edge.high);
             point[axis] = value;
             let Some(foot) = self.at(point) else { continue };
-            canvas.line(&[foot, shift(foot, size * 0.35)], false, &Pen::solid(INK, self.look.thin));
+            canvas.line(&[foot, shift(foot, size * 0.35)], false, &Pen::solid(self.look.ink, self.look.thin));
             let half = half_extent(label, size, away);
             self.write(canvas, label, shift(foot, size * 0.65 + half), size);
             widest = widest.max(2. * half);
         }
-        canvas.line(&edge.points, false, &Pen::solid(INK, self.look.thin));
+        canvas.line(&edge.points, false, &Pen::solid(self.look.ink, self.look.thin));
         let name = format!("{} {}", self.axes[axis].name, marks.factor());
         let name = name.trim();
         let [from, to] = edge.points;
@@ -158,7 +184,8 @@ impl Scene<'_> {
         let width = self.picture[0] as f32 + 2. * self.margin;
         let height = self.picture[1] as f32 + 2. * self.margin;
         let at = [at[0].min(width - half).max(half), at[1].min(height - size).max(size)];
-        let lettering = Lettering { size, colour: INK, across: Across::Middle, upright: Upright::Middle, turn: 0. };
+        let lettering =
+            Lettering { size, colour: self.look.ink, across: Across::Middle, upright: Upright::Middle, turn: 0. };
         canvas.text(text, at, &lettering);
     }
 }

@@ -20,6 +20,8 @@ pub enum Projection {
     Perspective(f64),
     /// All rays are parallel.
     Orthographic,
+    /// All rays start at this point and look at the middle of what is shown, as wide as that needs; azimuth and elevation count nothing.
+    Eye([f64; 3]),
 }
 
 /// The usual angle of view: 28 degrees, as of a short telephoto lens.
@@ -43,7 +45,7 @@ impl View {
         ("bottom", 0.0, -1.0),
     ];
 
-    /// A view by its name in any case, or `azimuth,elevation` in degrees (perspective).
+    /// A view by its name in any case, `azimuth,elevation` in degrees (perspective), or the place of the eye, `x,y,z`.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         if let Some(&(_, azimuth, elevation)) = Self::NAMES.iter().find(|(known, ..)| known.eq_ignore_ascii_case(name))
@@ -54,10 +56,40 @@ impl View {
         if name.eq_ignore_ascii_case("default") || name.eq_ignore_ascii_case("perspective") {
             return Some(Self::default());
         }
-        let (azimuth, elevation) = name.split_once(',')?;
-        let angle = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite()).map(f64::to_radians);
-        let (azimuth, elevation) = (angle(azimuth)?, angle(elevation)?);
-        (elevation.abs() <= FRAC_PI_2).then_some(Self { azimuth, elevation, ..Self::default() })
+        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+        let numbers: Vec<f64> = name.split(',').map(number).collect::<Option<_>>()?;
+        match numbers[..] {
+            [azimuth, elevation] if elevation.abs() <= 90.0 => {
+                Some(Self { azimuth: azimuth.to_radians(), elevation: elevation.to_radians(), ..Self::default() })
+            }
+            [x, y, z] => Some(Self { projection: Projection::Eye([x, y, z]), ..Self::default() }),
+            _ => None,
+        }
+    }
+
+    /// The same view of something about that middle, with an eye turned into angles.
+    #[must_use]
+    pub fn about(self, middle: [f64; 3]) -> Self {
+        let Projection::Eye(eye) = self.projection else { return self };
+        let out: [f64; 3] = std::array::from_fn(|k| eye[k] - middle[k]);
+        let flat = libm::hypot(out[0], out[1]);
+        let azimuth = if flat > 0.0 { libm::atan2(out[0], -out[1]) } else { 0.0 };
+        Self { azimuth, elevation: libm::atan2(out[2], flat), ..self }
+    }
+
+    /// The same view with all rays parallel.
+    #[must_use]
+    pub fn level(self, middle: [f64; 3]) -> Self {
+        Self { projection: Projection::Orthographic, ..self.about(middle) }
+    }
+
+    /// The same view with rays from one eye, unless they are already.
+    #[must_use]
+    pub fn central(self) -> Self {
+        match self.projection {
+            Projection::Orthographic => Self { projection: Projection::Perspective(ANGLE), ..self },
+            _ => self,
+        }
     }
 
     /// Unit vectors to the right, up, and away from the eye.
@@ -103,6 +135,8 @@ impl Camera {
     /// width by height.
     #[must_use]
     pub fn framing(view: &View, points: &[[f64; 3]], aspect: f64) -> Self {
+        let (lo, hi) = extent(points);
+        let view = view.about(std::array::from_fn(|k| 0.5 * (lo[k] + hi[k])));
         Self::along(view.axes(), view.projection, points, aspect)
     }
 
@@ -120,6 +154,7 @@ impl Camera {
         let framed = match projection {
             Projection::Orthographic => level(&corners, aspect),
             Projection::Perspective(angle) => central(&corners, aspect, angle),
+            Projection::Eye(eye) => from(axes.map(|axis| dot(axis, eye)), &corners, aspect),
         };
         let [right, up, forward] = axes;
         let eye = std::array::from_fn(|k| (0..3).map(|axis| framed.eye[axis] * axes[axis][k]).sum());
@@ -179,6 +214,23 @@ fn central(corners: &[[f64; 3]], aspect: f64, angle: f64) -> Framed {
         [0.5 * (sides[0][0] - sides[0][1]), 0.5 * (sides[1][0] - sides[1][1]), distance(0).min(distance(1)).min(least)];
     Framed { eye, base: [0.0; 2], growth }
 }
+
+/// The eye where it stands: the picture is as wide as the corners need, and at most [`WIDEST`].
+fn from(eye: [f64; 3], corners: &[[f64; 3]], aspect: f64) -> Framed {
+    let widest = libm::tan(0.5 * WIDEST);
+    let slope = |axis: usize| {
+        let of = |c: &[f64; 3]| {
+            let depth = c[2] - eye[2];
+            if depth > 0.0 { (c[axis] - eye[axis]).abs() / depth } else { f64::INFINITY }
+        };
+        corners.iter().map(of).fold(0.0, f64::max) / (1.0 - MARGIN)
+    };
+    let height = slope(1).max(slope(0) / aspect).min(widest / aspect.max(1.0)).max(1e-6);
+    Framed { eye, base: [0.0; 2], growth: [height * aspect, height] }
+}
+
+/// The widest angle of view of an eye that stands near or within an object.
+const WIDEST: f64 = 100.0 * PI / 180.0;
 
 fn extent(points: &[[f64; 3]]) -> ([f64; 3], [f64; 3]) {
     let first = points.first().copied().unwrap_or_default();

@@ -1,6 +1,6 @@
 //! Legends: a bar that tells which colour stands for which value. Computes no values.
 
-use super::axes::{Axis, INK, Look, PAPER, Ticks, number, ticks};
+use super::axes::{Axis, Look, PAPER, Ticks, number, ticks};
 use super::canvas::{Area, Canvas, Pen};
 use super::image::Image;
 use super::palette::Palette;
@@ -59,7 +59,7 @@ impl Legend {
                 canvas.pixel(column, row, colour);
             }
         }
-        let pen = Pen::solid(INK, look.thin);
+        let pen = Pen::solid(look.ink, look.thin);
         canvas.frame(bar, &pen);
         let ticks = self.ticks(bar.height(), look);
         let mut widest = 0_f32;
@@ -148,7 +148,20 @@ impl Telling {
     /// Each member has its own colour beside its name.
     #[must_use]
     pub fn names(names: impl IntoIterator<Item = String>) -> Self {
-        let entries: Vec<_> = names.into_iter().enumerate().map(|(k, name)| (name, member_colour(k))).collect();
+        Self::coloured(names, member_colour)
+    }
+
+    /// The same in the colours of solids.
+    #[must_use]
+    pub fn solids(names: impl IntoIterator<Item = String>) -> Self {
+        Self::coloured(names, |k| {
+            let [r, g, b] = solid_colour(k);
+            [r, g, b, 255]
+        })
+    }
+
+    fn coloured(names: impl IntoIterator<Item = String>, colour: impl Fn(usize) -> [u8; 4]) -> Self {
+        let entries: Vec<_> = names.into_iter().enumerate().map(|(k, name)| (name, colour(k))).collect();
         Telling { colours: entries.iter().map(|entry| entry.1).collect(), means: Means::Key(Key { entries }) }
     }
 
@@ -197,16 +210,41 @@ pub fn member_colour(k: usize) -> [u8; 4] {
     [r, g, b, 255]
 }
 
-/// Puts a legend at the right of a picture, which stays as it is. None if there is no memory for it.
+/// The colours of several solids in turn: lighter than those of lines, so that light and shade show on them.
 #[must_use]
-pub fn beside(image: &Image, legend: &Legend) -> Option<Image> {
-    let look = Look::of(image.width, image.height);
+pub fn solid_colour(k: usize) -> [u8; 3] {
+    const COLOURS: [[u8; 3]; 8] = [
+        [104, 151, 205],
+        [236, 168, 82],
+        [104, 178, 134],
+        [219, 118, 108],
+        [160, 140, 206],
+        [184, 150, 116],
+        [224, 152, 192],
+        [150, 156, 166],
+    ];
+    COLOURS[k % COLOURS.len()]
+}
+
+/// Puts what explains a picture's colours at its right; the picture stays as it is. `ground` is what it stands on, white
+/// unless told. None if there is no memory for it.
+#[must_use]
+pub fn beside(image: &Image, telling: &Telling, ground: Option<[u8; 4]>) -> Option<Image> {
+    let look = Look::of(image.width, image.height).on(ground.unwrap_or(PAPER));
     let height = image.height as f32;
     let (top, bottom) = ((height * 0.1).max(look.text), (height * 0.9).min(height - look.text));
     let gap = look.text;
-    let width = image.width as f32 + gap + legend.width(bottom - top, look) + gap * 0.5;
-    let mut canvas = Canvas::new(width.ceil() as usize, image.height, PAPER)?;
+    let own = match &telling.means {
+        Means::Key(key) => key.width(look),
+        Means::Legend(legend) => legend.width(bottom - top, look),
+    };
+    let mut canvas =
+        Canvas::new((image.width as f32 + gap * 1.5 + own).ceil() as usize, image.height, ground.unwrap_or(PAPER))?;
     canvas.paste(image, 0, 0);
-    legend.draw(&mut canvas, image.width as f32 + gap, top, bottom, look);
+    let left = image.width as f32 + gap;
+    match &telling.means {
+        Means::Key(key) => key.draw(&mut canvas, [left, top], look),
+        Means::Legend(legend) => legend.draw(&mut canvas, left, top, bottom, look),
+    }
     Some(canvas.image())
 }

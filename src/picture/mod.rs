@@ -7,6 +7,7 @@
 pub mod animation;
 pub mod axes;
 pub mod axes_space;
+mod brush;
 pub mod camera;
 pub mod canvas;
 pub mod contours;
@@ -17,6 +18,7 @@ pub mod graph;
 pub mod image;
 pub mod isolines;
 pub mod legend;
+mod occlusion;
 pub mod paint;
 pub mod palette;
 pub mod plot;

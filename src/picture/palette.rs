@@ -110,7 +110,12 @@ impl Palette {
 /// The linear light of an sRGB byte, 0..=1.
 #[must_use]
 pub fn linear(byte: u8) -> f32 {
-    let v = f64::from(byte) / 255.0;
+    bright(f64::from(byte) / 255.0)
+}
+
+/// The linear light of a component of an sRGB colour, both 0..=1.
+#[must_use]
+pub fn bright(v: f64) -> f32 {
     let light = if v <= 0.04045 { v / 12.92 } else { libm::pow((v + 0.055) / 1.055, 2.4) };
     light as f32
 }

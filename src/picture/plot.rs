@@ -4,7 +4,8 @@
 use rayon::prelude::*;
 
 use super::image::Image;
-use super::palette::{Palette, encode, linear};
+use super::paint::Paint;
+use super::palette::{Palette, bright, encode, linear};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
 use crate::surface::boxes::{Block, Lattice, Visitor, walk};
@@ -101,8 +102,83 @@ pub fn plot(
     }
 }
 
+/// Plane figures of their own colours over each other, each smoothed and with a line along its boundary; of several, those below show a
+/// little. `ground` is what is outside, with its opacity.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+///
+/// # Panics
+/// If a shape has another number of axes than two.
+pub fn figures(
+    figures: &[(Shape, Paint)],
+    window: Window,
+    size: [usize; 2],
+    ground: [u8; 4],
+    interrupt: &Interrupt,
+) -> Result<Plot, Cancelled> {
+    assert!(figures.iter().all(|(shape, _)| shape.dimension == 2), "a plot shows a space of two axes");
+    let (mut counters, mut all) = (Counters::default(), Vec::new());
+    let fine = fineness(size);
+    let pixels = Pixels { window, size: size.map(|n| n * fine) };
+    for (shape, _) in figures {
+        let (signs, cost) = signs(shape, &pixels, interrupt)?;
+        counters.add(cost);
+        all.push(signs);
+    }
+    let met = all.iter().flatten().any(|&sign| sign);
+    let papers: Vec<Paper<'_>> = all.iter().map(|signs| Paper { signs, size: pixels.size, fine }).collect();
+    let middles = Pixels { window, size };
+    let columns: Vec<f64> = (0..size[0]).map(|i| middles.column(i)).collect();
+    let mut image = Image::new(size[0], size[1], [0; 3]);
+    image.rgba.par_chunks_mut(4 * size[0].max(1)).enumerate().for_each(|(j, row)| {
+        let rows = vec![middles.row(j); size[0]];
+        let light = |(_, paint): &(Shape, Paint)| -> Vec<[f32; 3]> {
+            paint.at(&[&columns, &rows]).into_iter().map(|colour| colour.map(bright)).collect()
+        };
+        let lights: Vec<Vec<[f32; 3]>> = figures.iter().map(light).collect();
+        for (i, pixel) in row.chunks_exact_mut(4).enumerate() {
+            pixel.copy_from_slice(&over(&papers, &lights, [i, j], ground));
+        }
+    });
+    Ok(Plot { image, counters, met })
+}
+
+/// A pixel of figures over each other.
+fn over(papers: &[Paper<'_>], lights: &[Vec<[f32; 3]>], [i, j]: [usize; 2], ground: [u8; 4]) -> [u8; 4] {
+    let line = LINE.map(linear);
+    let cover = if papers.len() > 1 { COVER } else { 1.0 };
+    let [r, g, b, a] = ground;
+    let (below, opacity) = ([r, g, b].map(linear), f32::from(a) / 255.0);
+    let (mut sum, mut all, mut count) = ([0.0_f32; 3], 0.0_f32, 0.0_f32);
+    let fine = papers.first().map_or(1, |paper| paper.fine);
+    for y in j * fine..(j + 1) * fine {
+        for x in i * fine..(i + 1) * fine {
+            let (mut light, mut covered, mut bare) = (below.map(|v| v * opacity), opacity, true);
+            for (paper, lights) in papers.iter().zip(lights) {
+                let (colour, part) = match (paper.on_line(x, y), paper.signs[y * paper.size[0] + x]) {
+                    (true, _) => (line, 1.0),
+                    (false, true) => (lights[i], if bare { 1.0 } else { cover }),
+                    (false, false) => continue,
+                };
+                bare = false;
+                (0..3).for_each(|k| light[k] = part * colour[k] + (1.0 - part) * light[k]);
+                covered = part + (1.0 - part) * covered;
+            }
+            (0..3).for_each(|k| sum[k] += light[k]);
+            all += covered;
+            count += 1.0;
+        }
+    }
+    let [r, g, b] = sum.map(|v| encode(v / all.max(f32::MIN_POSITIVE)));
+    [r, g, b, (255.0 * all / count).round() as u8]
+}
+
+/// How much a figure hides of those below it.
+const COVER: f32 = 0.8;
+
 /// The colour of what is outside.
-const PAPER: [u8; 3] = [0xf7, 0xf8, 0xfa];
+pub const PAPER: [u8; 3] = [0xf7, 0xf8, 0xfa];
 /// The colour of the line along the boundary.
 const LINE: [u8; 3] = [0x1c, 0x2c, 0x44];
 

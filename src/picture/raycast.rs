@@ -1,11 +1,16 @@
-//! A 3-D object in the light, on a soft light background: rays cast, shaded, and averaged over each pixel. Writes no files.
+//! 3-D objects in the light: rays cast at each, shaded where they meet it, and averaged over each pixel. Writes no files.
 
+use rayon::prelude::*;
+
+use super::brush::{Brush, Lit};
 use super::camera::{Camera, View};
 use super::extent::Extent;
 use super::image::Image;
-use super::palette::{Palette, encode, linear};
-use super::rays::{Aim, Hit, Pattern, Scene, Tile, cast_on};
-use super::shade::{Light, Lights};
+use super::occlusion::Occlusion;
+use super::paint::Paint;
+use super::palette::Palette;
+use super::rays::{Aim, Pattern, Scene, Tile, cast_on};
+use super::shade::Lights;
 use super::shadow::Shadows;
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::sampler::Counters;
@@ -28,16 +33,23 @@ pub struct Style {
     /// Rays along each side of a pixel where it shows an edge, 1 to 4; elsewhere a pixel is the mean of its corners. With 1 every pixel is
     /// what one ray through its middle meets.
     pub supersample: usize,
-    /// Decides the colour of the object.
+    /// Decides the colour of an object that has none of its own.
     pub palette: Palette,
+    /// From where the key light shines, as azimuth and elevation of a [`View`] in radians; from above the camera's left shoulder if
+    /// nothing is said.
+    pub light: Option<[f64; 2]>,
+    /// How bright the fill light is, 0 to 1.
+    pub fill: f32,
     /// How dark the key light's shadows are: 0 for none (and none are computed), 1 for as dark as its light is bright.
     pub shadow: f32,
+    /// Whether hollows and corners get less of the light of the sky.
+    pub occlusion: bool,
     /// The colours at the top and at the bottom of the background.
     pub background: [[u8; 3]; 2],
-    /// Whether there is no background: a pixel is as opaque as the part of it that the object covers.
+    /// Whether there is no background: a pixel is as opaque as the part of it that the objects cover.
     pub transparent: bool,
-    /// The colour of the object, instead of the palette's.
-    pub solid: Option<[u8; 3]>,
+    /// The faces of the space that are sections through the object and hatched as such: for each axis the lower and the upper one.
+    pub cuts: [[bool; 2]; 3],
 }
 
 impl Default for Style {
@@ -46,17 +58,47 @@ impl Default for Style {
             size: [800, 600],
             supersample: 2,
             palette: Palette::Plain,
+            light: None,
+            fill: 1.0,
             shadow: 0.6,
-            background: [[0xfb, 0xfc, 0xfd], [0xdf, 0xe4, 0xea]],
+            occlusion: false,
+            background: GROUND,
             transparent: false,
-            solid: None,
+            cuts: [[false; 2]; 3],
         }
     }
 }
 
+/// The usual background: a soft light grey, brighter above.
+pub const GROUND: [[u8; 3]; 2] = [[0xfb, 0xfc, 0xfd], [0xdf, 0xe4, 0xea]];
+
 impl Style {
-    fn fine(&self) -> usize {
+    pub(super) fn fine(&self) -> usize {
         self.supersample.clamp(1, 4)
+    }
+}
+
+/// One of the objects of a picture.
+#[derive(Clone, Debug)]
+pub struct Thing {
+    /// The object, of three axes; a program of [`crate::vm::Demand::Sign`] is enough.
+    pub shape: Shape,
+    /// Its colour.
+    pub paint: Paint,
+    /// How much of what lies behind its boundary is hidden where one looks straight at it: 1 for all; below that, more where one looks
+    /// along it, as at glass, and all at sections. What lets light through throws its shadow on itself alone.
+    pub opacity: f32,
+}
+
+impl Thing {
+    /// What nothing shows through.
+    #[must_use]
+    pub fn opaque(shape: Shape, paint: Paint) -> Self {
+        Self { shape, paint, opacity: 1.0 }
+    }
+
+    pub(super) fn is_opaque(&self) -> bool {
+        self.opacity >= 1.0
     }
 }
 
@@ -67,11 +109,11 @@ pub struct Picture {
     pub image: Image,
     /// Evaluations, and points where the function was undefined.
     pub counters: Counters,
-    /// Rays that met the object: 0 for one that is empty or out of sight.
+    /// Rays that met an object: 0 for one that is empty or out of sight.
     pub hits: u64,
 }
 
-/// The object seen by the camera. The shape has three axes; a program of [`crate::vm::Demand::Sign`] is enough.
+/// One object in the palette's colour, seen by the camera. The shape has three axes; a program of [`crate::vm::Demand::Sign`] is enough.
 ///
 /// # Errors
 /// [`Cancelled`] soon after the interrupt was set.
@@ -85,35 +127,140 @@ pub fn raycast(
     style: &Style,
     interrupt: &Interrupt,
 ) -> Result<Picture, Cancelled> {
-    assert_eq!(shape.dimension, 3, "rays are cast in a space of three axes");
+    let thing = Thing::opaque(shape.clone(), Paint::Plain(style.palette.solid()));
+    render(&[thing], space, camera, style, interrupt)
+}
+
+/// Objects in one space, seen by the camera: each hides what lies behind it, and throws its shadow on all. Of two that share a piece of
+/// boundary the first is seen there.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+///
+/// # Panics
+/// If a shape has another number of axes than three.
+pub fn render(
+    things: &[Thing],
+    space: Space,
+    camera: &Camera,
+    style: &Style,
+    interrupt: &Interrupt,
+) -> Result<Picture, Cancelled> {
+    assert!(things.iter().all(|thing| thing.shape.dimension == 3), "rays are cast in a space of three axes");
     let [width, height] = style.size;
+    let mut picture = Picture { image: Image::new(width, height, [0; 3]), counters: Counters::default(), hits: 0 };
     if width == 0 || height == 0 {
-        return Ok(Picture { image: Image::new(width, height, [0; 3]), counters: Counters::default(), hits: 0 });
+        return Ok(picture);
     }
     let scene = Scene { camera: *camera, space, rays: style.size, tile: 8 };
-    let lights = Lights::new(camera, style.solid.unwrap_or(style.palette.solid()));
+    let lights = Lights::new(camera, style.light, style.fill);
     let side = (width.max(height) * 3 / 4).clamp(256, 2048);
-    let sun = (style.shadow > 0.0).then(|| Shadows::scene(space, lights.key(), side));
-    let fine = style.fine();
-    let passes = if fine > 1 { 2 } else { 1 };
-    interrupt.begin(sun.map_or(0, |sun| sun.steps()) + passes * scene.steps());
-    let (shadows, mut counters) = match sun {
-        Some(_) => {
-            let (shadows, cost) = Shadows::cast(shape, space, lights.key(), side, interrupt)?;
-            (Some(shadows), cost)
-        }
-        None => (None, Counters::default()),
-    };
-    let brush = Brush::new(scene, style, lights, shadows);
-    let mut picture = Picture { image: Image::new(width, height, [0; 3]), counters: Counters::default(), hits: 0 };
+    let sun = Shadows::scene(space, lights.key(), side).steps();
+    let passes = if style.fine() > 1 { 2 } else { 1 };
+    let shadows = if style.shadow > 0.0 { sun } else { 0 };
+    interrupt.begin(things.len() as u64 * (shadows + passes * scene.steps()) + Occlusion::steps(things, space, style));
+    let mut air = Air { lights, ..Air::default() };
+    if style.shadow > 0.0 {
+        picture.counters.add(air.cast_shadows(things, space, side, interrupt)?);
+    }
+    if style.occlusion {
+        let (occlusion, cost) = Occlusion::cast(things, space, style, interrupt)?;
+        picture.counters.add(cost);
+        air.occlusion = Some(occlusion);
+    }
+    let brush = Brush::new(scene, style, things, &air);
     let mut edges = vec![false; width * height];
-    let aim = |pattern| Aim { pattern, tolerance: TOLERANCE, normals: true };
-    let pattern = if fine > 1 { Pattern::Corners } else { Pattern::Middles };
-    let (tiles, cost) = cast_on(shape, &scene, aim(pattern), |tile| brush.paint(&tile), interrupt)?;
-    counters.add(cost);
-    for (from, size, painted) in tiles {
-        picture.hits += painted.hits;
-        for (row, pixels) in painted.pixels.chunks_exact(size[0]).enumerate() {
+    first_pass(&brush, things, &mut picture, &mut edges, interrupt)?;
+    if style.fine() > 1 {
+        second_pass(&brush, things, &mut picture, &edges, interrupt)?;
+    }
+    Ok(picture)
+}
+
+/// What is between the lights and the objects.
+#[derive(Default)]
+pub(super) struct Air {
+    pub(super) lights: Lights,
+    /// Where the key light reaches past all opaque objects.
+    common: Option<Shadows>,
+    /// Where it reaches a translucent object past those and the object itself; by the object's number.
+    own: Vec<Option<Shadows>>,
+    pub(super) occlusion: Option<Occlusion>,
+}
+
+impl Air {
+    fn cast_shadows(
+        &mut self,
+        things: &[Thing],
+        space: Space,
+        side: usize,
+        interrupt: &Interrupt,
+    ) -> Result<Counters, Cancelled> {
+        let mut counters = Counters::default();
+        for thing in things {
+            let (shadows, cost) = Shadows::cast(&thing.shape, space, self.lights.key(), side, interrupt)?;
+            counters.add(cost);
+            self.own.push(Some(shadows));
+        }
+        for (_, own) in things.iter().zip(&mut self.own).filter(|(thing, _)| thing.is_opaque()) {
+            match (&mut self.common, own.take()) {
+                (Some(common), Some(own)) => common.join(&own),
+                (common, own) => *common = own,
+            }
+        }
+        for own in self.own.iter_mut().flatten() {
+            if let Some(common) = &self.common {
+                own.join(common);
+            }
+        }
+        Ok(counters)
+    }
+
+    /// Where the key light reaches an object.
+    pub(super) fn shadows(&self, thing: usize) -> Option<&Shadows> {
+        self.own.get(thing).and_then(Option::as_ref).or(self.common.as_ref())
+    }
+}
+
+/// All pixels from rays through their corners (or middles), and which of them show edges.
+fn first_pass(
+    brush: &Brush<'_>,
+    things: &[Thing],
+    picture: &mut Picture,
+    edges: &mut [bool],
+    interrupt: &Interrupt,
+) -> Result<(), Cancelled> {
+    let pattern = if brush.fine > 1 { Pattern::Corners } else { Pattern::Middles };
+    let aim = Aim { pattern, tolerance: TOLERANCE, normals: true };
+    let [width, height] = [picture.image.width, picture.image.height];
+    let mut painted = Vec::new();
+    if let [thing] = things {
+        let finish = |tile: Tile<'_>| brush.paint(tile.from, tile.size, &[&brush.lit(0, &tile)]);
+        let (tiles, cost) = cast_on(&thing.shape, &brush.scene, aim, finish, interrupt)?;
+        picture.counters.add(cost);
+        painted = tiles;
+    } else {
+        let more = usize::from(brush.fine > 1);
+        let mut layers = Vec::new();
+        for (k, thing) in things.iter().enumerate() {
+            let (tiles, cost) = cast_on(&thing.shape, &brush.scene, aim, |tile| brush.lit(k, &tile), interrupt)?;
+            picture.counters.add(cost);
+            layers.push(sheet(tiles, [width, height], more));
+        }
+        let across = width + more;
+        let band = |from: usize| {
+            let rows = BAND.min(height - from);
+            let part = |layer: &'_ Vec<Lit>| from * across..((from + rows + more) * across).min(layer.len());
+            let parts: Vec<&[Lit]> = layers.iter().map(|layer| &layer[part(layer)]).collect();
+            interrupt.tick()?;
+            Ok(([0, from], [width, rows], brush.paint([0, from], [width, rows], &parts)))
+        };
+        let bands: Result<Vec<_>, Cancelled> = (0..height).into_par_iter().step_by(BAND).map(band).collect();
+        painted.extend(bands?);
+    }
+    for (from, size, tile) in painted {
+        picture.hits += tile.hits;
+        for (row, pixels) in tile.pixels.chunks_exact(size[0]).enumerate() {
             let at = (from[1] + row) * width + from[0];
             for (i, pixel) in pixels.iter().enumerate() {
                 picture.image.rgba[4 * (at + i)..][..4].copy_from_slice(&pixel.rgba);
@@ -121,140 +268,63 @@ pub fn raycast(
             }
         }
     }
-    if fine > 1 {
-        let aim = aim(Pattern::Shares(fine, &edges));
-        let (tiles, cost) = cast_on(shape, &scene, aim, |tile| brush.touch_up(&tile), interrupt)?;
-        counters.add(cost);
-        for (at, rgba) in tiles.into_iter().flat_map(|(.., pixels)| pixels) {
-            picture.image.rgba[4 * at..][..4].copy_from_slice(&rgba);
+    Ok(())
+}
+
+/// Rows of pixels that are painted together where several objects are shown.
+const BAND: usize = 16;
+
+/// The rays of tiles, which differ from object to object, as rows of the whole picture.
+fn sheet(tiles: Tiled<Vec<Lit>>, [width, height]: [usize; 2], more: usize) -> Vec<Lit> {
+    let across = width + more;
+    let mut all = vec![None; across * (height + more)];
+    for (from, size, lit) in tiles {
+        for (row, lit) in lit.chunks_exact(size[0] + more).enumerate() {
+            all[(from[1] + row) * across + from[0]..][..lit.len()].copy_from_slice(lit);
         }
     }
-    picture.counters = counters;
-    Ok(picture)
+    all
+}
+
+type Tiled<T> = Vec<([usize; 2], [usize; 2], T)>;
+
+/// The pixels that show edges, from more rays.
+fn second_pass(
+    brush: &Brush<'_>,
+    things: &[Thing],
+    picture: &mut Picture,
+    edges: &[bool],
+    interrupt: &Interrupt,
+) -> Result<(), Cancelled> {
+    let aim = Aim { pattern: Pattern::Shares(brush.fine, edges), tolerance: TOLERANCE, normals: true };
+    let cells: Vec<usize> = (0..edges.len()).filter(|&at| edges[at]).collect();
+    let rays = brush.fine * brush.fine;
+    let mut layers = Vec::new();
+    for (k, thing) in things.iter().enumerate() {
+        let (tiles, cost) = cast_on(&thing.shape, &brush.scene, aim, |tile| brush.shares(k, &tile), interrupt)?;
+        picture.counters.add(cost);
+        let mut layer: Vec<Lit> = vec![None; cells.len() * rays];
+        for (at, lit) in tiles.into_iter().flat_map(|(.., shares)| shares) {
+            if let Ok(cell) = cells.binary_search(&at) {
+                layer[cell * rays..][..rays].copy_from_slice(&lit);
+            }
+        }
+        layers.push(layer);
+    }
+    let parts: Vec<&[Lit]> = layers.iter().map(Vec::as_slice).collect();
+    let pixels: Vec<[u8; 4]> =
+        cells.par_iter().enumerate().map(|(n, &at)| brush.touch_up(&parts, n, at / picture.image.width)).collect();
+    for (at, rgba) in cells.into_iter().zip(pixels) {
+        picture.image.rgba[4 * at..][..4].copy_from_slice(&rgba);
+    }
+    Ok(())
 }
 
 /// How exactly depths are found, as a part of the range of depths: a hundredth of a pixel in a picture of 10,000 of them.
-const TOLERANCE: f64 = 1e-6;
-
-/// How far the colours at the corners of a pixel may lie apart, of 1, before it is looked at more closely.
-const CONTRAST: f32 = 0.03;
+pub(super) const TOLERANCE: f64 = 1e-6;
 
 /// The camera of that view which frames the object, in a picture of the style's size.
 #[must_use]
 pub fn framed(view: &View, extent: &Extent, style: &Style) -> Camera {
     Camera::framing(view, &extent.points(), style.size[0] as f64 / style.size[1].max(1) as f64)
-}
-
-/// The background's light, row by row.
-fn backdrop(style: &Style) -> Vec<Light> {
-    let [top, bottom] = style.background.map(|colour| colour.map(linear));
-    let rows = style.size[1];
-    let at = |j: usize| j as f32 / (rows.max(2) - 1) as f32;
-    (0..rows).map(|j| std::array::from_fn(|k| top[k] + at(j) * (bottom[k] - top[k]))).collect()
-}
-
-/// Turns hits into pixels.
-struct Brush {
-    scene: Scene,
-    lights: Lights,
-    shadows: Option<Shadows>,
-    style: Style,
-    backdrop: Vec<Light>,
-    /// The pixels of the rows where nothing is hit.
-    empty: Vec<[u8; 4]>,
-    fine: usize,
-}
-
-/// A tile of pixels, row by row.
-struct Painted {
-    pixels: Vec<Pixel>,
-    hits: u64,
-}
-
-struct Pixel {
-    rgba: [u8; 4],
-    /// Whether it shows more than its corners tell.
-    edge: bool,
-}
-
-impl Brush {
-    fn new(scene: Scene, style: &Style, lights: Lights, shadows: Option<Shadows>) -> Self {
-        let backdrop = backdrop(style);
-        let empty = |light: &Light| {
-            let [r, g, b] = light.map(encode);
-            if style.transparent { [0; 4] } else { [r, g, b, 255] }
-        };
-        let empty = backdrop.iter().map(empty).collect();
-        Self { scene, lights, shadows, style: *style, backdrop, empty, fine: style.fine() }
-    }
-
-    /// The pixels of a tile from rays through their corners, or through their middles.
-    fn paint(&self, tile: &Tile<'_>) -> Painted {
-        let [columns, rows] = tile.size;
-        let (corners, across) = if self.fine > 1 { (1, columns + 1) } else { (0, columns) };
-        let lights = self.lights(tile);
-        let mut pixels = Vec::with_capacity(columns * rows);
-        for j in 0..rows {
-            for i in 0..columns {
-                let at = |x: usize, y: usize| lights.get((j + y) * across + i + x).copied().flatten();
-                let seen = [at(0, 0), at(corners, 0), at(0, corners), at(corners, corners)];
-                pixels.push(Pixel { rgba: self.mean(&seen, tile.from[1] + j), edge: differ(&seen) });
-            }
-        }
-        Painted { pixels, hits: tile.hits.iter().flatten().count() as u64 }
-    }
-
-    /// The pixels of a tile that show edges, by their index in the picture.
-    fn touch_up(&self, tile: &Tile<'_>) -> Vec<(usize, [u8; 4])> {
-        let lights = self.lights(tile);
-        let cells = tile.places.chunks_exact(self.fine * self.fine).map(|places| places[0].map(|v| v as usize));
-        let pixels = cells.zip(lights.chunks_exact(self.fine * self.fine));
-        pixels.map(|([i, j], seen)| (j * self.style.size[0] + i, self.mean(seen, j))).collect()
-    }
-
-    /// The light of each ray of a tile; none where it misses.
-    fn lights(&self, tile: &Tile<'_>) -> Vec<Option<Light>> {
-        tile.hits.iter().zip(tile.places).map(|(hit, &place)| Some(self.light(hit.as_ref()?, place))).collect()
-    }
-
-    /// The mean of what the rays of a pixel see. Each light is cut at white first, so that a gleam does not make its edge jagged.
-    fn mean(&self, seen: &[Option<Light>], row: usize) -> [u8; 4] {
-        if seen.iter().all(Option::is_none) {
-            return self.empty[row];
-        }
-        let (behind, clear) = (self.backdrop[row], self.style.transparent);
-        let mut sum = [0.0_f32; 3];
-        let mut covered = 0;
-        for light in seen {
-            covered += usize::from(light.is_some());
-            let light = light.unwrap_or(if clear { [0.0; 3] } else { behind });
-            (0..3).for_each(|k| sum[k] += light[k].min(1.0));
-        }
-        let count = if clear { covered.max(1) } else { seen.len() };
-        let [r, g, b] = sum.map(|light| encode(light / count as f32));
-        let opacity = if clear { (255 * covered + seen.len() / 2) / seen.len() } else { 255 };
-        [r, g, b, opacity as u8]
-    }
-
-    /// The light of a hit of the ray through a place.
-    fn light(&self, hit: &Hit, place: [f64; 2]) -> Light {
-        self.lights.shade(hit, |facing| {
-            let Some(shadows) = &self.shadows else { return 1.0 };
-            let (start, direction) = self.scene.through(place);
-            let point = std::array::from_fn(|k| start[k] + hit.depth * direction[k]);
-            1.0 - self.style.shadow.min(1.0) * (1.0 - shadows.lit(point, hit.normal, facing))
-        })
-    }
-}
-
-/// Whether some of the rays miss and others do not, or their colours lie far apart.
-fn differ(seen: &[Option<Light>; 4]) -> bool {
-    // The root is near enough to the code of a colour.
-    let colours = seen.map(|light| light.map(|light| light.map(|v| v.clamp(0.0, 1.0).sqrt())));
-    let [first, rest @ ..] = &colours;
-    rest.iter().any(|other| match (first, other) {
-        (Some(a), Some(b)) => a.iter().zip(b).any(|(a, b)| (a - b).abs() > CONTRAST),
-        (None, None) => false,
-        _ => true,
-    })
 }

@@ -1,21 +1,21 @@
 //! The light: a key light from the upper left, a weak fill from the right, the sky above and the ground below, and a soft gleam. In
 //! linear light; knows no geometry but a normal.
 
-use super::camera::Camera;
+use super::camera::{Camera, Projection, View};
 use super::palette::linear;
 use super::rays::Hit;
 
 /// Linear light, red, green, blue.
 pub type Light = [f32; 3];
 
-/// Lights that stand still relative to the camera, so that every view is lit well.
-#[derive(Clone, Copy, Debug)]
+/// Lights that stand still relative to the camera, so that every view is lit well, unless the key light was given its place.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Lights {
     key: [f64; 3],
     fill: [f64; 3],
     halfway: [f64; 3],
-    solid: Light,
-    cut: Light,
+    /// How bright the fill light is.
+    strength: f32,
 }
 
 const KEY: Light = [0.86, 0.83, 0.78];
@@ -24,24 +24,26 @@ const SKY: Light = [0.33, 0.36, 0.41];
 const GROUND: Light = [0.15, 0.135, 0.12];
 const GLEAM: f32 = 0.16;
 const GLEAM_EXPONENT: f64 = 36.0;
-/// What a face of the modelling space that cuts the object is tinted with, and how much.
+/// What a face that cuts the object is tinted with.
 const CUT: [u8; 3] = [0xe9, 0xb8, 0x86];
-const CUT_SHARE: f32 = 0.6;
 
 impl Lights {
-    /// Lights for a camera and a solid of that colour (sRGB).
+    /// Lights for a camera; `place` is where the key light stands, as azimuth and elevation of a [`View`], `fill` how bright the other is.
     #[must_use]
-    pub fn new(camera: &Camera, solid: [u8; 3]) -> Self {
+    pub fn new(camera: &Camera, place: Option<[f64; 2]>, fill: f32) -> Self {
         let towards = |right: f64, up: f64, back: f64| {
             unit(std::array::from_fn(|k| right * camera.right[k] + up * camera.up[k] - back * camera.forward[k]))
         };
-        let key = towards(-0.52, 0.72, 0.62);
+        let key = match place {
+            Some([azimuth, elevation]) => {
+                let [.., forward] = View { azimuth, elevation, projection: Projection::Orthographic }.axes();
+                forward.map(|v| -v)
+            }
+            None => towards(-0.52, 0.72, 0.62),
+        };
         let eye = camera.forward.map(|v| -v);
         let halfway = unit(std::array::from_fn(|k| key[k] + eye[k]));
-        let solid = solid.map(linear);
-        let tint = CUT.map(linear);
-        let cut = std::array::from_fn(|k| solid[k] + CUT_SHARE * (tint[k] - solid[k]));
-        Self { key, fill: towards(0.85, 0.1, 0.5), halfway, solid, cut }
+        Self { key, fill: towards(0.85, 0.1, 0.5), halfway, strength: fill }
     }
 
     /// The direction to the key light, a unit vector.
@@ -50,23 +52,29 @@ impl Lights {
         self.key
     }
 
-    /// The light that leaves the object at a hit that the key light reaches by `lit` (0 to 1; asked with the cosine of its angle where
-    /// it shines on the boundary's front).
+    /// The light that leaves an object of the colour `body` (linear) at a hit that the key light reaches by `lit` (0 to 1; asked with the
+    /// cosine of its angle where it shines on the boundary's front) and the light of the sky by `open`.
     #[must_use]
-    pub fn shade(&self, hit: &Hit, lit: impl FnOnce(f64) -> f32) -> Light {
+    pub fn shade(&self, hit: &Hit, body: Light, lit: impl FnOnce(f64) -> f32, open: f32) -> Light {
         let n = hit.normal;
-        let (facing, fill) = (dot(n, self.key), dot(n, self.fill).max(0.0) as f32);
+        let (facing, fill) = (dot(n, self.key), dot(n, self.fill).max(0.0) as f32 * self.strength * open);
         let lit = if facing > 0.0 { lit(facing) } else { 0.0 };
         let key = lit * facing.max(0.0) as f32;
         let sky = (0.5 + 0.5 * n[2]) as f32;
         let gleam =
             if key > 0.0 { GLEAM * libm::pow(dot(n, self.halfway).max(0.0), GLEAM_EXPONENT) as f32 } else { 0.0 };
-        let body = if hit.cap { self.cut } else { self.solid };
         std::array::from_fn(|k| {
-            let around = GROUND[k] + sky * (SKY[k] - GROUND[k]);
+            let around = (GROUND[k] + sky * (SKY[k] - GROUND[k])) * open;
             body[k] * (around + key * KEY[k] + fill * FILL[k]) + gleam
         })
     }
+}
+
+/// The colour of a face that cuts an object of that colour: warmer, by a share from 0 to 1.
+#[must_use]
+pub fn tinted(body: Light, share: f32) -> Light {
+    let tint = CUT.map(linear);
+    std::array::from_fn(|k| body[k] + share * (tint[k] - body[k]))
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

@@ -58,6 +58,11 @@ impl Shadows {
         Ok((Self { camera, side, depths, texel }, counters))
     }
 
+    /// Adds what the same light sees of another object of the same space.
+    pub fn join(&mut self, other: &Self) {
+        self.depths.iter_mut().zip(&other.depths).for_each(|(depth, more)| *depth = depth.min(*more));
+    }
+
     /// How much of the light reaches a point of the boundary with that normal, 0 to 1. `facing` is the cosine of the angle between the
     /// normal and the light; the point is moved off the boundary by more where the light grazes it, so that no face shades itself.
     #[must_use]

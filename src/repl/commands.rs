@@ -328,15 +328,22 @@ fn settings(making: &Making) -> String {
     let mut say = |name: &str, value: Option<String>| {
         lines.extend(value.map(|value| format!("{name} {value}").trim_end().to_owned()))
     };
-    say("object", making.subject.object.clone());
+    say("object", (!making.subject.object.is_empty()).then(|| making.subject.object.join(",")));
     say("resolution", making.fineness.resolution.map(|n| n.to_string()));
     say("cell", making.fineness.cell.map(|length| length.to_string()));
     say("size", making.look.size.map(|size| format!("{}x{}", size.width, size.height)));
     say("view", making.look.view.clone());
-    say("camera", making.look.camera.map(|[around, above]| format!("{around},{above}")));
+    say("camera", making.look.camera.as_ref().map(ToString::to_string));
     say("palette", making.look.palette.clone());
     say("supersample", making.look.supersample.map(|n| n.to_string()));
     say("axes", making.look.axes.then(String::new));
+    say("projection", making.look.projection.map(|rays| format!("{rays:?}").to_lowercase()));
+    let switch = |switch: cli::arguments::Switch| if switch.is_on() { "on" } else { "off" }.to_owned();
+    say("light", making.look.light.map(|[around, above]| format!("{around},{above}")));
+    say("fill", making.look.fill.map(switch));
+    say("shadow", if making.look.no_shadow { Some("off".into()) } else { making.look.shadow.map(switch) });
+    say("occlusion", making.look.occlusion.map(switch));
+    say("background", making.look.background.map(|ground| ground.to_string()));
     say(
         "slices",
         making.look.slices.map(|slices| format!("x{}={}:{}:{}", slices.coordinate, slices.lo, slices.hi, slices.count)),
@@ -344,6 +351,9 @@ fn settings(making: &Making) -> String {
     say("images", making.display.images.map(|images| format!("{images:?}").to_lowercase()));
     say("frames", making.motion.frames.map(|n| n.to_string()));
     say("fps", making.motion.fps.map(|n| n.to_string()));
+    for cut in &making.look.cut {
+        say("cut", Some(cut.to_string()));
+    }
     for section in &making.subject.at {
         say("at", Some(format!("x{}={}", section.coordinate, section.value)));
     }

@@ -27,7 +27,7 @@ use crate::host::{FileError, Reason, reason, state_folder};
 use crate::interrupt::Costs;
 use crate::limits::Limits;
 use crate::model::request::headline;
-use crate::model::{Event, Session};
+use crate::model::{Event, Session, settings};
 use crate::syntax::Mode;
 use crate::syntax::scan::{Scanner, TokenKind};
 
@@ -228,7 +228,9 @@ impl Repl {
 
     fn show_object(&mut self, name: &str) -> Result<(), Status> {
         let making = self.looking_at(name);
-        match headline(&mut self.session, &view(&making)) {
+        let told = settings::defaults(&mut self.session)
+            .and_then(|defaults| headline(&mut self.session, &view(&making, &defaults.view)));
+        match told {
             Ok(line) => self.console.print(&line)?,
             Err(_) => self.console.print(&self.session.describe(name))?,
         }
@@ -239,7 +241,7 @@ impl Repl {
     fn looking_at(&self, name: &str) -> Making {
         let mut making = self.making.clone();
         if !name.is_empty() {
-            making.subject.object = Some(name.to_owned());
+            making.subject.object = vec![name.to_owned()];
         }
         making
     }

@@ -327,6 +327,14 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("cell", &["ball.geo", "-o", "-", "--format", "stl"], &["ball.geo", "-o", "-", "--format", "stl", "--cell", "0.7"]),
     ("size", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--size", "20x30"]),
     ("camera", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--camera", "120,-10"]),
+    ("projection", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--projection", "orthographic"]),
+    ("light", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--light", "-60,10"]),
+    ("fill", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--fill", "off"]),
+    ("shadow", SHADY, &["ball.geo", "-e", PLATE, "-o", "-", "--format", "png", "--shadow", "off"]),
+    ("no_shadow", SHADY, &["ball.geo", "-e", PLATE, "-o", "-", "--format", "png", "--no-shadow"]),
+    ("occlusion", SHADY, &["ball.geo", "-e", PLATE, "-o", "-", "--format", "png", "--occlusion"]),
+    ("background", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--background", "transparent"]),
+    ("cut", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--cut", "x1<0.5"]),
     ("view", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--view", "top"]),
     (
         "palette",
@@ -351,6 +359,9 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("strict", &["-e", "r = 1; q = r; r = 2;"], &["-e", "r = 1; q = r; r = 2;", "-W"]),
 ];
 const PICTURE: &[&str] = &["ball.geo", "-o", "-", "--format", "png"];
+/// A plate below the ball, which throws its shadow on it.
+const PLATE: &str = "gob_plate = (x3 + 1.95 & -1.85 - x3) | gob_ball;";
+const SHADY: &[&str] = &["ball.geo", "-e", PLATE, "-o", "-", "--format", "png"];
 const MOVING: &[&str] = &["growing.geo", "-o", "-", "--format", "gif", "--size", "32x32"];
 
 #[test]

@@ -208,7 +208,7 @@ fn views_look_along_their_axes_with_z_up() {
     assert_eq!(axes("right"), [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]]);
     assert!(axes("iso")[2].iter().all(|v| (v.abs() - 1.0 / 3.0_f64.sqrt()).abs() < 1e-12));
     assert_eq!(View::from_name("90,0").expect("angles").axes()[2], [-1.0, 0.0, 0.0]);
-    for wrong in ["sideways", "1", "1,2,3", "0,91", "nan,0"] {
+    for wrong in ["sideways", "1", "1,2,3,4", "1,2,inf", "0,91", "nan,0"] {
         assert_eq!(View::from_name(wrong), None, "{wrong}");
     }
 }

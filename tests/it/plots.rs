@@ -363,7 +363,7 @@ fn maps_of_anything_are_drawn() {
 fn a_legend_shows_both_ends_of_its_palette() {
     let picture = Image::new(320, 240, [255, 255, 255]);
     let legend = Legend::new("x6", -1.5, 2.5, Palette::Spectrum);
-    let image = beside(&picture, &legend).unwrap();
+    let image = beside(&picture, &Telling::values([], legend.clone()), None).unwrap();
     look(&image, "legend");
     let has = |t: f64| {
         let want = Palette::Spectrum.colour(t);
@@ -430,7 +430,7 @@ fn axes_stand_behind_a_solid() {
             let ground = pixel[0].min(pixel[2]).saturating_sub(pixel[1]) > 60;
             pixel[3] = if ground { 0 } else { 255 };
         }
-        let image = behind(&picture, &camera, space, &names).unwrap();
+        let image = behind(&picture, &camera, space, &names, None).unwrap();
         look(&image, &format!("space-{name}"));
         let margin = (image.width - 480) / 2;
         // The outline's own edges may run along the solid where it touches its box.

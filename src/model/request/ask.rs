@@ -17,7 +17,9 @@ use super::fields::{Sampled, at_points};
 use super::make::{Workshop, Written, cancelled, make};
 use super::measured::{Dimension, Measured};
 use super::output::Output;
+use super::pictures;
 use super::subject::{Axis, Level, Place, Sequence, Subject};
+use super::together::subject;
 use super::{Options, Timing, View};
 use crate::model::environment::{self, Object, Role};
 use crate::model::session::Session;
@@ -35,6 +37,8 @@ pub fn write(session: &mut Session, output: &Output, options: &Options, standard
         Some(slices) => subject.sliced(slices).map_err(|d| vec![d])?,
         None => subject,
     };
+    let subject =
+        subject.cut(&options.cuts, &pictures::view(&options.picture).map_err(|d| vec![d])?).map_err(|d| vec![d])?;
     let host = session.host.clone();
     let shop = Workshop { graph: &session.graph, limits: &session.limits, interrupt: &session.interrupt, host: &*host };
     make(&shop, &subject, output, options, standard).map_err(|d| vec![d])
@@ -47,7 +51,7 @@ pub fn write(session: &mut Session, output: &Output, options: &Options, standard
 pub fn measure(session: &mut Session, view: &View) -> Asked<Measured> {
     let subject = subject(session, view, &Timing::default())?;
     let one = |d: Diagnostic| vec![d];
-    subject.shown_by("a measurement", &[]).map_err(one)?;
+    subject.is_alone("a measurement").and_then(|()| subject.shown_by("a measurement", &[])).map_err(one)?;
     let grid = subject.grid(view.cells, &session.limits).map_err(one)?;
     let shape = subject.shape(&session.graph, Demand::Sign, &session.limits).map_err(one)?;
     let interrupt = &session.interrupt;
@@ -197,11 +201,11 @@ pub fn role(role: &Role) -> String {
     }
 }
 
-/// The object that a view names as a subject: axes from types and ranges, sections from `at`, frames from time.
+/// The object that a view names as a subject, by itself.
 ///
 /// # Errors
 /// Messages for the user: what is missing or makes no sense.
-pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Subject> {
+pub(super) fn alone(session: &mut Session, view: &View, timing: &Timing) -> Asked<Subject> {
     let mut object = session.object(view.object.as_deref())?;
     override_axes(&mut object, view);
     let mut told = Vec::new();
@@ -242,11 +246,16 @@ pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Sub
         .space()
         .iter()
         .zip(bounds)
-        .map(|(a, (lo, hi))| Axis { coordinate: a.coordinate, range: [lo, hi] })
+        .map(|(a, (lo, hi))| Axis { coordinate: a.coordinate, range: [lo, hi], order: order(&a.role) })
         .collect();
     subject.span = session.place(&object.name);
     subject.colouring = object.colour;
     Ok(subject)
+}
+
+/// Which of X, Y and Z a role is.
+fn order(role: &Role) -> usize {
+    [Role::X, Role::Y, Role::Z].iter().position(|known| known == role).unwrap_or(2)
 }
 
 /// The function less a level.

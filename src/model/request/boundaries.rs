@@ -64,6 +64,7 @@ impl<'a> Making<'a> {
         let is_glb = self.output.format == Format::Glb;
         let shown = self.subject.shown_by("such a mesh", if is_glb { &["G", "C", "levels"] } else { &[] });
         shown.map_err(|told| if is_glb { told } else { told.help("a .glb holds a group; a .png shows a sheet") })?;
+        self.several()?;
         let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
         let phase = self.shop.interrupt.phase("compile");
         let members = self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?;
@@ -89,6 +90,19 @@ impl<'a> Making<'a> {
         Ok(())
     }
 
+    /// Refuses several objects where the format holds one, or where each of them is already several.
+    fn several(&self) -> Result<(), Diagnostic> {
+        if let Format::Stl | Format::Ply = self.output.format {
+            let what = format!("an .{}", self.output.format.extension()).replace("an .p", "a .p");
+            let keep = "an .obj, .glb or .3mf keeps them apart under their names";
+            self.subject.is_alone(&what).map_err(|told| told.help(keep))?;
+        }
+        if self.subject.beside.is_empty() {
+            return Ok(());
+        }
+        self.subject.all().try_for_each(|one| one.shown_by("a mesh of several objects", &[]))
+    }
+
     /// The objects of the file with their colours.
     fn wanted(&self) -> Result<Vec<Wanted<'a>>, Diagnostic> {
         let palette = Palette::from_name(&self.options.picture.palette).unwrap_or_default();
@@ -98,7 +112,7 @@ impl<'a> Making<'a> {
             let paint = if coloured { subject.paint(graph, palette, limits)? } else { None };
             Ok(Wanted { subject, shape: subject.shape(graph, Demand::Sign, limits)?, paint })
         };
-        [self.subject].into_iter().map(one).collect()
+        self.subject.all().map(one).collect()
     }
 
     /// The boundaries of all objects at a moment; one that is empty beside others is left out.
@@ -229,6 +243,7 @@ impl<'a> Making<'a> {
     /// Outlines of a plane figure: one group of paths a section.
     pub(super) fn outlines(&mut self) -> Result<(), Diagnostic> {
         self.need(2, "an outline")?;
+        self.subject.is_alone("an outline")?;
         self.subject.shown_by("an outline", &["G", "C", "levels"])?;
         let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
         let members = self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?;
@@ -259,9 +274,10 @@ impl<'a> Making<'a> {
 
     fn cut(&mut self, extraction: &Extraction) {
         let mut faces = Vec::new();
-        for (axis, sides) in self.subject.axes.iter().zip(extraction.report.cut) {
+        let asked = self.subject.cut;
+        for (k, (axis, sides)) in self.subject.axes.iter().zip(extraction.report.cut).enumerate() {
             for (side, (cut, which)) in sides.into_iter().zip(["min", "max"]).enumerate() {
-                if cut {
+                if cut && !asked[k][side] {
                     faces.push(format!("{}{which} = {}", axis.coordinate, axis.range[side]));
                 }
             }

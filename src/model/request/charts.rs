@@ -24,7 +24,7 @@ const LEAST_SAMPLES: usize = 400;
 /// A picture of a subject of one or two axes, the same in all frames and cells but for the values of the coordinates that change.
 pub struct Chart<'a> {
     subject: &'a Subject,
-    members: Vec<Member>,
+    members: Vec<(&'a Subject, Member)>,
     telling: Option<Telling>,
     size: [usize; 2],
     kind: Kind,
@@ -50,7 +50,7 @@ impl<'a> Chart<'a> {
         places: &[Place],
         (palette, size): (Palette, [usize; 2]),
     ) -> Result<Self, Diagnostic> {
-        let members = subject.members(shop.graph, Demand::Value, shop.limits)?;
+        let members = members(shop, subject)?;
         let telling = (members.len() > 1).then(|| telling(subject, &members, palette));
         let kind = Kind::Curves { range: [0.0; 2] };
         let mut chart = Self { subject, members, telling, size, kind };
@@ -69,15 +69,16 @@ impl<'a> Chart<'a> {
     /// The contour map of a subject of two axes and several levels, or its sections in one picture.
     ///
     /// # Errors
-    /// If a program is too large, or there are levels and sections.
+    /// If a program is too large.
     pub fn map(
         shop: &Workshop<'_>,
         subject: &'a Subject,
         (palette, size): (Palette, [usize; 2]),
     ) -> Result<Self, Diagnostic> {
-        let members = subject.members(shop.graph, Demand::Value, shop.limits)?;
+        let members = members(shop, subject)?;
         let telling = Some(telling(subject, &members, palette));
-        let kind = if subject.levels.is_empty() {
+        let sections = !subject.groups.is_empty() || subject.colour.is_some() || !subject.beside.is_empty();
+        let kind = if subject.levels.is_empty() || sections {
             Kind::Sections
         } else {
             let shape = subject.shape(shop.graph, Demand::Value, shop.limits)?;
@@ -117,8 +118,8 @@ impl<'a> Chart<'a> {
         interrupt: &Interrupt,
     ) -> Result<(Option<Image>, Counters, u64), Diagnostic> {
         let (mut fields, mut counters) = (Vec::new(), Counters::default());
-        for member in &self.members {
-            let (field, cost) = self.field(&self.subject.placed(&member.shape, place), interrupt)?;
+        for (one, member) in &self.members {
+            let (field, cost) = self.field(&one.placed(&member.shape, place), interrupt)?;
             counters.add(cost);
             fields.push(field);
         }
@@ -133,8 +134,8 @@ impl<'a> Chart<'a> {
         let [lo, hi] = self.subject.axes[0].range;
         let count = self.size[0].max(LEAST_SAMPLES);
         let (mut curves, mut counters) = (Vec::new(), Counters::default());
-        for member in &self.members {
-            let (curve, cost) = graph::of(&self.subject.placed(&member.shape, place), lo, hi, count, interrupt)?;
+        for (one, member) in &self.members {
+            let (curve, cost) = graph::of(&one.placed(&member.shape, place), lo, hi, count, interrupt)?;
             counters.add(cost);
             curves.push(curve);
         }
@@ -144,7 +145,8 @@ impl<'a> Chart<'a> {
     fn draw_curves(&self, mut curves: Vec<Curve>, range: [f64; 2], title: &str) -> Option<Image> {
         let [lo, hi] = self.subject.axes[0].range;
         let axis = Axis::new(self.subject.axes[0].coordinate.to_string(), lo, hi);
-        let name = self.subject.name.to_string();
+        // Several functions are told apart by the key.
+        let name = if self.subject.beside.is_empty() { self.subject.name.to_string() } else { String::new() };
         let graph = Graph { title: title.into(), name, range: Some(range), curve: Curve::default() };
         match &self.telling {
             Some(telling) => graph::group(&curves, telling, &graph, &axis, self.size),
@@ -174,13 +176,29 @@ impl<'a> Chart<'a> {
     }
 }
 
-/// How members are told apart: those of type C by a spectrum, others by names.
-fn telling(subject: &Subject, members: &[Member], palette: Palette) -> Telling {
-    match &subject.colour {
-        Some(colour) => {
-            Telling::values(members.iter().map(|m| m.value), legend(colour.coordinate, &colour.values, palette))
+/// The sections and levels of all objects.
+fn members<'a>(shop: &Workshop<'_>, subject: &'a Subject) -> Result<Vec<(&'a Subject, Member)>, Diagnostic> {
+    let mut all = Vec::new();
+    for one in subject.all() {
+        for member in one.members(shop.graph, Demand::Value, shop.limits)? {
+            all.push((one, member));
         }
-        None => Telling::names(members.iter().map(|m| m.label.clone())),
+    }
+    Ok(all)
+}
+
+/// How members are told apart: those of type C by a spectrum, others by names.
+fn telling(subject: &Subject, members: &[(&Subject, Member)], palette: Palette) -> Telling {
+    let name = |(one, member): &(&Subject, Member)| match (&subject.beside[..], member.label.as_str()) {
+        ([], label) => label.to_owned(),
+        (_, "") => one.name.to_string(),
+        (_, label) => format!("{}, {label}", one.name),
+    };
+    match &subject.colour {
+        Some(colour) if subject.beside.is_empty() => {
+            Telling::values(members.iter().map(|m| m.1.value), legend(colour.coordinate, &colour.values, palette))
+        }
+        _ => Telling::names(members.iter().map(name)),
     }
 }
 

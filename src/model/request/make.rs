@@ -18,7 +18,7 @@ use crate::vm::{Demand, Shape};
 
 use super::output::{Format, Kind, Output, Target, numbered};
 use super::subject::Subject;
-use super::{Options, pictures};
+use super::{Background, Options, pictures};
 
 /// What was written, and what there is to say of it.
 #[derive(Debug, Default)]
@@ -91,6 +91,7 @@ impl Making<'_> {
     fn pictures(&mut self) -> Result<(), Diagnostic> {
         let moments = self.moments();
         let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
+        self.written.notes.extend(artist.notes(self.options));
         for (n, moment) in moments.into_iter().enumerate() {
             let begun = Instant::now();
             let picture = artist.picture(moment, self.shop.interrupt)?;
@@ -111,8 +112,14 @@ impl Making<'_> {
             let help = "give a coordinate the type T and a range: `x4 : T; x4min = 0; x4max = 1; x4_delta = 0.1;`";
             self.written.notes.push(Diagnostic::warning("no-motion", title).help(help));
         }
+        if self.output.format == Format::Gif && self.options.picture.background == Some(Background::Transparent) {
+            let title = "a GIF has no pixels that are transparent in part, and would have jagged edges";
+            let help = "ask for an .apng, or for another --background";
+            return Err(Diagnostic::error("no-transparency", title).category(Category::Usage).help(help));
+        }
         let begun = Instant::now();
         let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
+        self.written.notes.extend(artist.notes(self.options));
         let (mut frames, mut counters, mut hits) = (Vec::new(), Counters::default(), 0);
         for &moment in &moments {
             let picture = artist.picture(moment, self.shop.interrupt)?;
@@ -139,6 +146,7 @@ impl Making<'_> {
     }
 
     fn samples(&mut self) -> Result<(), Diagnostic> {
+        self.subject.is_alone("a sampled field")?;
         self.subject.shown_by("a sampled field", &["levels"])?;
         let cells = self.subject.along(self.options.view.cells)?;
         let space: Vec<(f64, f64)> = self.subject.bounds().iter().map(|[lo, hi]| (*lo, *hi)).collect();

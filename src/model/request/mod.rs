@@ -4,6 +4,7 @@
 mod ask;
 mod boundaries;
 mod charts;
+mod cuts;
 pub mod fields;
 mod make;
 pub mod measured;
@@ -13,9 +14,10 @@ mod pictures;
 mod preview;
 mod solids;
 pub mod subject;
+mod together;
 
 pub(super) use ask::role;
-pub use ask::{Info, info, measure, sample, subject, write};
+pub use ask::{Info, info, measure, sample, write};
 pub use fields::Sampled;
 pub use make::Written;
 pub use measured::Measured;
@@ -23,6 +25,7 @@ pub use preview::{headline, preview};
 pub use output::{FORMATS, Format, Kind, Output, Target};
 pub use paint::{colours_at, colours_of};
 pub use subject::{Sequence, Subject};
+pub use together::subject;
 
 use crate::field::Coordinate;
 
@@ -40,6 +43,8 @@ pub enum Cells {
 pub struct View {
     /// The object's name; the last `gob_` defined if none is given.
     pub object: Option<String>,
+    /// Further objects that stand in the same picture.
+    pub beside: Vec<String>,
     /// Sections: `x4 = 0.5`. Wins over the script's types.
     pub at: Vec<(Coordinate, f64)>,
     /// Ranges of coordinates. Wins over the script's.
@@ -50,7 +55,7 @@ pub struct View {
 
 impl Default for View {
     fn default() -> Self {
-        Self { object: None, at: Vec::new(), bounds: Vec::new(), cells: Cells::Along(128) }
+        Self { object: None, beside: Vec::new(), at: Vec::new(), bounds: Vec::new(), cells: Cells::Along(128) }
     }
 }
 
@@ -61,8 +66,20 @@ pub struct PictureOptions {
     pub size: Option<(usize, usize)>,
     /// Samples along each side of a pixel.
     pub supersample: usize,
-    /// A named view (`iso`, `front`, `top` ...), or azimuth and elevation in degrees: `30,20`.
+    /// A named view (`iso`, `front`, `top` ...), azimuth and elevation in degrees, `30,20`, or the place of the eye, `4,-5,3`.
     pub view: String,
+    /// Whether all rays are parallel; by default in named views, not in others.
+    pub parallel: Option<bool>,
+    /// Where the key light stands, as azimuth and elevation in degrees; at the camera's left shoulder unless told.
+    pub light: Option<[f64; 2]>,
+    /// Whether there is a second, weaker light.
+    pub fill: bool,
+    /// Whether the key light throws shadows.
+    pub shadow: bool,
+    /// Whether hollows and corners get less light from the sky.
+    pub occlusion: bool,
+    /// What stands behind the object; a soft light grey unless told.
+    pub background: Option<Background>,
     /// The palette's name.
     pub palette: String,
     /// Whether axes with numbers stand around a picture of two or three axes; graphs and contour maps always have them.
@@ -71,8 +88,76 @@ pub struct PictureOptions {
 
 impl Default for PictureOptions {
     fn default() -> Self {
-        Self { size: None, supersample: 2, view: "default".into(), palette: "plain".into(), axes: false }
+        Self {
+            size: None,
+            supersample: 2,
+            view: "default".into(),
+            parallel: None,
+            light: None,
+            fill: true,
+            shadow: true,
+            occlusion: false,
+            background: None,
+            palette: "plain".into(),
+            axes: false,
+        }
     }
+}
+
+/// What stands behind an object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Background {
+    /// One colour, sRGB.
+    Colour([u8; 3]),
+    /// Nothing: PNG and APNG keep that.
+    Transparent,
+}
+
+impl Background {
+    /// The names of colours.
+    pub const NAMES: &'static str = "white, black, grey";
+
+    /// A background by its name in any case: a colour, `#rrggbb`, `#rgb`, or `transparent`.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        let name = name.to_ascii_lowercase();
+        let digit = |d: &u8| char::from(*d).to_digit(16).map(|d| d as u8);
+        let colour = match name.as_str() {
+            "transparent" | "none" => return Some(Self::Transparent),
+            "white" => [255; 3],
+            "black" => [0; 3],
+            "grey" | "gray" => [128; 3],
+            _ => {
+                let digits: Vec<u8> = name.strip_prefix('#')?.as_bytes().iter().map(digit).collect::<Option<_>>()?;
+                match digits[..] {
+                    [r, g, b] => [r, g, b].map(|d| 17 * d),
+                    [a, b, c, d, e, f] => [16 * a + b, 16 * c + d, 16 * e + f],
+                    _ => return None,
+                }
+            }
+        };
+        Some(Self::Colour(colour))
+    }
+}
+
+/// A plane at right angles to an axis that cuts a solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    /// The axis.
+    pub coordinate: Coordinate,
+    /// Where the plane stands.
+    pub value: f64,
+    /// The half that stays; the one away from the camera unless told.
+    pub keep: Option<Half>,
+}
+
+/// A side of a cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Half {
+    /// Where the coordinate is less.
+    Below,
+    /// Where it is more.
+    Above,
 }
 
 /// How an animation or a numbered series runs.
@@ -101,4 +186,6 @@ pub struct Options {
     pub timing: Timing,
     /// An axis that is cut into slices, and where.
     pub slices: Option<Sequence>,
+    /// Planes that cut a solid, which is capped there.
+    pub cuts: Vec<Cut>,
 }

@@ -11,7 +11,7 @@ use crate::vm::Demand;
 
 use super::charts::telling_palette;
 use super::subject::{Place, Subject};
-use super::{Timing, View, ask};
+use super::{Timing, View, together};
 
 impl Subject {
     /// The colour that the program gives the object, if it does, at its first frame and sections; `palette` shows single values.
@@ -67,7 +67,7 @@ pub fn colours_at(
     palette: Palette,
     points: &[[f64; 3]],
 ) -> Result<Option<Vec<[f64; 3]>>, Vec<Diagnostic>> {
-    let subject = ask::subject(session, view, &Timing::default())?;
+    let subject = together::subject(session, view, &Timing::default())?;
     let paint = subject.paint(&session.graph, palette, &session.limits).map_err(|d| vec![d])?;
     Ok(paint.map(|paint| colours_of(&paint, points)))
 }

@@ -6,10 +6,12 @@ use crate::interrupt::Interrupt;
 use crate::picture::Image;
 use crate::picture::axes::{Axis, around, number};
 use crate::picture::canvas::LARGEST;
+use crate::picture::legend::solid_colour;
 use crate::picture::palette::Palette;
-use crate::picture::plot::{Fill, Window, plot};
+use crate::picture::plot::{self, Fill, PAPER, Window, plot};
 use crate::picture::raycast::Picture;
 use crate::picture::sheet::{Heading, SheetError, compose};
+use crate::picture::{Paint, View};
 use crate::surface::sampler::Counters;
 use crate::vm::{Demand, Shape};
 
@@ -17,7 +19,7 @@ use super::charts::{Chart, no_room};
 use super::make::Workshop;
 use super::solids::Solid;
 use super::subject::{Place, Sequence, Subject};
-use super::{Options, PictureOptions};
+use super::{Background, Options, PictureOptions};
 
 /// Pixels along the longer side of a picture of a plane figure, where no size is given; in a sheet.
 const PLOT_SIDE: [f64; 2] = [640.0, 240.0];
@@ -32,9 +34,19 @@ pub struct Artist<'a> {
     scene: Scene<'a>,
 }
 
+/// Plane figures with colours of their own.
+struct Figures<'a> {
+    all: Vec<(&'a Subject, Shape, Paint)>,
+    window: Window,
+    size: [usize; 2],
+    ground: [u8; 4],
+    axes: bool,
+}
+
 enum Scene<'a> {
     Solid(Box<Solid<'a>>),
     Plane { shape: Shape, window: Window, size: [usize; 2], fill: Fill, axes: bool },
+    Figures(Figures<'a>),
     Chart(Chart<'a>),
 }
 
@@ -59,11 +71,19 @@ impl<'a> Artist<'a> {
         let bounds = subject.bounds();
         let size = size(picture, subject, shop)?;
         let cells = subject.cells(0.0).len() as u64;
-        subject.within_memory(picture_bytes(size, picture.supersample).saturating_mul(cells), shop.limits)?;
+        subject.within_memory(picture_bytes(size, picture.supersample, subject).saturating_mul(cells), shop.limits)?;
         let places: Vec<Place> = moments.iter().flat_map(|&moment| subject.cells(moment)).collect();
         let scene = match bounds.as_slice() {
             [_] => Scene::Chart(Chart::graph(shop, subject, &places, (palette, size))?),
-            [_, _] if !subject.is_single() => Scene::Chart(Chart::map(shop, subject, (palette, size))?),
+            [_, _] if !subject.all().all(Subject::is_single) => {
+                Scene::Chart(Chart::map(shop, subject, (palette, size))?)
+            }
+            [_, _]
+                if subject.all().any(|one| one.colouring.is_some() || one.name != subject.name)
+                    || picture.background.is_some() =>
+            {
+                Scene::Figures(Figures::new(shop, subject, (picture, palette, size))?)
+            }
             [x, y] => {
                 let fill = Fill::of(palette);
                 let demand = if fill.needs_values() { Demand::Value } else { Demand::Sign };
@@ -92,7 +112,8 @@ impl<'a> Artist<'a> {
         let time = subject.time.as_ref().map(|time| format!("{} = {}", time.coordinate, number(moment)));
         if subject.columns.is_none() && subject.rows.is_none() {
             let place = subject.cells(moment).swap_remove(0);
-            return self.cell(&place, &time.unwrap_or_default(), interrupt);
+            let cell = self.cell(&place, &time.unwrap_or_default(), interrupt)?;
+            return Ok(Picture { image: self.explained(cell.image)?, ..cell });
         }
         let (mut images, mut counters, mut hits) = (Vec::new(), Counters::default(), 0);
         for place in subject.cells(moment) {
@@ -103,20 +124,56 @@ impl<'a> Artist<'a> {
         }
         let title = time.map_or_else(|| subject.name.to_string(), |time| format!("{}, {time}", subject.name));
         let sheet = compose(&images, &heading(&subject.columns), &heading(&subject.rows), &title);
-        let image = sheet.map_err(|error| too_large(&error))?;
+        let image = self.explained(sheet.map_err(|error| too_large(&error))?)?;
         Ok(Picture { image, counters, hits })
+    }
+
+    /// What is said of options that this picture does not heed, and of objects that it does not show.
+    pub fn notes(&self, options: &Options) -> Vec<Diagnostic> {
+        match &self.scene {
+            Scene::Solid(solid) => solid.notes(),
+            Scene::Chart(_) if options.picture.background.is_some() => {
+                vec![Diagnostic::note("white-paper", "graphs and maps stand on white paper, whatever the background")]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// One legend serves all pictures of a sheet of solids.
+    fn explained(&self, image: Image) -> Result<Image, Diagnostic> {
+        match &self.scene {
+            Scene::Solid(solid) => solid.explained(image),
+            _ => Ok(image),
+        }
     }
 
     fn cell(&self, place: &Place, title: &str, interrupt: &Interrupt) -> Result<Picture, Diagnostic> {
         match &self.scene {
             Scene::Solid(solid) => solid.picture(place, interrupt),
             Scene::Chart(chart) => chart.picture(place, title, interrupt),
+            Scene::Figures(figures) => self.figures(figures, place, title, interrupt),
             Scene::Plane { shape, window, size, fill, axes } => {
                 let plot = plot(&self.subject.placed(shape, place), *window, *size, *fill, interrupt)?;
                 let image = if *axes { self.with_axes(&plot.image, title)? } else { plot.image };
                 Ok(Picture { image, counters: plot.counters, hits: u64::from(plot.met) })
             }
         }
+    }
+
+    fn figures(
+        &self,
+        figures: &Figures<'_>,
+        place: &Place,
+        title: &str,
+        interrupt: &Interrupt,
+    ) -> Result<Picture, Diagnostic> {
+        let Figures { all, window, size, ground, axes } = figures;
+        let placed =
+            |(one, shape, paint): &(&Subject, Shape, Paint)| (one.placed(shape, place), one.painted(paint, place));
+        let placed: Vec<(Shape, Paint)> = all.iter().map(placed).collect();
+        let plot = plot::figures(&placed, *window, *size, *ground, interrupt)?;
+        let image = if *axes { self.with_axes(&plot.image, title)? } else { plot.image };
+        Ok(Picture { image, counters: plot.counters, hits: u64::from(plot.met) })
     }
 
     fn with_axes(&self, image: &Image, title: &str) -> Result<Image, Diagnostic> {
@@ -126,6 +183,46 @@ impl<'a> Artist<'a> {
         });
         around(image, &x, &y, title).ok_or_else(|| no_room([image.width, image.height]))
     }
+}
+
+impl<'a> Figures<'a> {
+    fn new(
+        shop: &Workshop<'_>,
+        subject: &'a Subject,
+        (picture, palette, size): (&PictureOptions, Palette, [usize; 2]),
+    ) -> Result<Self, Diagnostic> {
+        let [x, y] = [0, 1].map(|k| subject.axes[k].range);
+        let mut all = Vec::new();
+        for (k, one) in subject.all().enumerate() {
+            let shape = one.shape(shop.graph, Demand::Sign, shop.limits)?;
+            let plain = if subject.beside.is_empty() { palette.colour(0.5) } else { solid_colour(k) };
+            let paint = one.paint(shop.graph, palette, shop.limits)?.unwrap_or(Paint::Plain(plain));
+            all.push((one, shape, paint));
+        }
+        let ground = match picture.background {
+            Some(Background::Colour([r, g, b])) => [r, g, b, 255],
+            Some(Background::Transparent) => [0; 4],
+            None => [PAPER[0], PAPER[1], PAPER[2], 255],
+        };
+        let window = Window { lo: [x[0], y[0]], hi: [x[1], y[1]] };
+        Ok(Self { all, window, size, ground, axes: picture.axes })
+    }
+}
+
+/// From where a solid is seen.
+///
+/// # Errors
+/// An unknown view.
+pub(super) fn view(picture: &PictureOptions) -> Result<View, Diagnostic> {
+    let view = View::from_name(&picture.view).ok_or_else(|| {
+        let names: Vec<&str> = View::NAMES.iter().map(|(name, ..)| *name).collect();
+        usage("view", format!("no view is called `{}`", picture.view))
+            .help(format!("choose one of {}, or azimuth,elevation in degrees: `30,20`", names.join(", ")))
+    })?;
+    Ok(match picture.parallel {
+        Some(false) => view.central(),
+        _ => view,
+    })
 }
 
 fn heading(sequence: &Option<Sequence>) -> Heading {
@@ -166,10 +263,12 @@ fn size(picture: &PictureOptions, subject: &Subject, shop: &Workshop<'_>) -> Res
     Ok(size)
 }
 
-/// What a picture takes while it is made: its samples, and its bytes twice.
-fn picture_bytes(size: [usize; 2], supersample: usize) -> u64 {
-    let pixels = (size[0] * size[1]) as u64;
-    pixels * (8 + 2 * (supersample * supersample) as u64)
+/// What a picture takes while it is made: its samples, its bytes twice, and of several objects what each ray met.
+fn picture_bytes(size: [usize; 2], supersample: usize, subject: &Subject) -> u64 {
+    let pixels = size[0] as u64 * size[1] as u64;
+    let parts: u64 = subject.all().map(|one| (one.sections().len() * one.levels.len().max(1)) as u64).sum();
+    let met = if parts > 1 && subject.axes.len() == 3 { 48 * parts } else { 0 };
+    pixels.saturating_mul(8 + 2 * (supersample.min(4) * supersample.min(4)) as u64 + met)
 }
 
 pub(super) fn usage(code: &'static str, title: String) -> Diagnostic {

@@ -6,7 +6,7 @@ use crate::picture::Image;
 use super::make::{Workshop, empty};
 use super::pictures::Artist;
 use super::subject::Subject;
-use super::{Options, View, ask};
+use super::{Options, View, together};
 use crate::model::environment::Object;
 use crate::model::session::Session;
 
@@ -20,7 +20,7 @@ const SMALLEST: usize = 8;
 /// # Errors
 /// Messages for the user: those of a `.png`.
 pub fn preview(session: &mut Session, options: &Options, within: [usize; 2]) -> Result<Image, Vec<Diagnostic>> {
-    let subject = ask::subject(session, &options.view, &options.timing)?;
+    let subject = together::subject(session, &options.view, &options.timing)?;
     let host = session.host.clone();
     let shop = Workshop { graph: &session.graph, limits: &session.limits, interrupt: &session.interrupt, host: &*host };
     small(&shop, &subject, options, within).map_err(|told| vec![told])

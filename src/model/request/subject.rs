@@ -20,6 +20,8 @@ pub struct Axis {
     pub coordinate: Coordinate,
     /// Range in the modelling space.
     pub range: [f64; 2],
+    /// Which of X, Y and Z it is, from 0.
+    pub order: usize,
 }
 
 /// A coordinate that takes several values: frames, columns or rows of a sheet, sections.
@@ -52,6 +54,8 @@ pub struct Member {
     pub value: f64,
     /// The function; members may share its program.
     pub shape: Shape,
+    /// The values of the coordinates that tell sections apart.
+    pub place: Place,
     /// The coordinates with their values, or `level` with its.
     pub marks: Vec<(String, f64)>,
 }
@@ -83,6 +87,10 @@ pub struct Subject {
     pub levels: Vec<Level>,
     /// The colour that the program gives it.
     pub colouring: Option<Colour>,
+    /// The faces of the space that are cuts: for each axis the lower and the upper one.
+    pub cut: [[bool; 2]; 3],
+    /// Further objects in the same picture, with the same axes.
+    pub beside: Vec<Subject>,
 }
 
 impl Subject {
@@ -103,6 +111,8 @@ impl Subject {
             colour: None,
             levels,
             colouring: None,
+            cut: [[false; 2]; 3],
+            beside: Vec::new(),
         }
     }
 
@@ -182,37 +192,40 @@ impl Subject {
         self.shape_of(self.node, graph, demand, limits)
     }
 
-    /// Everything that is shown together in one picture: levels, or sections; the object alone if there are neither.
+    /// Everything that is shown together in one picture: each level of each section; the object alone if there is one of each.
     ///
     /// # Errors
-    /// If there are both, or a program would be too large.
+    /// If a program would be too large.
     pub fn members(&self, graph: &Graph, demand: Demand, limits: &Limits) -> Result<Vec<Member>, Diagnostic> {
+        let each = |place: &Place| place.iter().map(|(c, v)| format!("{c} = {}", number(*v))).collect::<Vec<_>>();
         let sections = self.sections();
-        if self.levels.is_empty() {
-            let shape = self.shape(graph, demand, limits)?;
-            let label = |place: &Place| {
-                let each: Vec<String> = place.iter().map(|(c, v)| format!("{c} = {}", number(*v))).collect();
-                each.join(", ")
-            };
-            let member = |place: &Place| Member {
-                label: label(place),
-                value: place.last().map_or(0.0, |last| last.1),
-                shape: self.placed(&shape, place),
-                marks: place.iter().map(|(c, v)| (c.to_string(), *v)).collect(),
-            };
-            return Ok(sections.iter().map(member).collect());
+        let mut levels = Vec::new();
+        for level in &self.levels {
+            levels.push((Some(level.value), self.shape_of(level.node, graph, demand, limits)?));
         }
-        if sections.len() > 1 {
-            let title = format!("`{}` has several levels and several sections; one picture shows either", self.name);
-            let help = format!("choose one level: `{} : CONSTANT = {};`", self.name, self.levels[0].value);
-            return Err(Diagnostic::error("type-not-shown", title).help(help));
+        if levels.is_empty() {
+            levels.push((None, self.shape(graph, demand, limits)?));
         }
-        let member = |level: &Level| {
-            let shape = self.shape_of(level.node, graph, demand, limits)?;
-            let marks = vec![("level".into(), level.value)];
-            Ok(Member { label: number(level.value), value: level.value, shape, marks })
+        let member = |place: &Place, level: Option<f64>, shape: &Shape| {
+            let mut label = each(place);
+            let mut marks: Vec<(String, f64)> = place.iter().map(|(c, v)| (c.to_string(), *v)).collect();
+            if let Some(value) = level {
+                label.push(if place.is_empty() { number(value) } else { format!("level {}", number(value)) });
+                marks.push(("level".into(), value));
+            }
+            // A section of type C is told by its colour, whatever the level.
+            let told = if self.colour.is_some() { None } else { level };
+            Member {
+                label: label.join(", "),
+                value: told.or(place.last().map(|last| last.1)).unwrap_or(0.0),
+                shape: self.placed(shape, place),
+                place: place.clone(),
+                marks,
+            }
         };
-        self.levels.iter().map(member).collect()
+        let of_section =
+            |place: &Place| levels.iter().map(|(level, shape)| member(place, *level, shape)).collect::<Vec<_>>();
+        Ok(sections.iter().flat_map(of_section).collect())
     }
 
     pub(super) fn shape_of(
@@ -311,13 +324,13 @@ impl Subject {
         };
         match error {
             GridError::Bounds(axis) => {
-                let Axis { coordinate: c, range: [lo, hi] } = self.axes[axis];
+                let Axis { coordinate: c, range: [lo, hi], .. } = self.axes[axis];
                 let title = format!("the modelling space has no extent along {c}: from {lo} to {hi}");
                 let help = format!("give a range: `{c}min = -1; {c}max = 1;`, or --bounds {c}=-1:1");
                 Diagnostic::error("no-extent", title).help(help)
             }
             GridError::TooFine(axis) => {
-                let Axis { coordinate: c, range: [lo, hi] } = self.axes[axis];
+                let Axis { coordinate: c, range: [lo, hi], .. } = self.axes[axis];
                 let title = format!("the cells along {c} ({lo} to {hi}) are too small for doubles of that size");
                 Diagnostic::error("too-fine", title)
                     .help(format!("lower --resolution, or move the space towards {c} = 0"))
