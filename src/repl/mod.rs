@@ -26,8 +26,8 @@ use crate::cli::status::Status;
 use crate::host::{FileError, Reason, reason, state_folder};
 use crate::interrupt::Costs;
 use crate::limits::Limits;
-use crate::model::request::{View, headline};
-use crate::model::{Event, Session};
+use crate::model::request::headline;
+use crate::model::{Event, Session, settings};
 use crate::syntax::Mode;
 use crate::syntax::scan::{Scanner, TokenKind};
 
@@ -232,7 +232,9 @@ impl Repl {
 
     fn show_object(&mut self, name: &str) -> Result<(), Status> {
         let making = self.looking_at(name);
-        match headline(&mut self.session, &view(&making, &View::default())) {
+        let told = settings::defaults(&mut self.session)
+            .and_then(|defaults| headline(&mut self.session, &view(&making, &defaults.view)));
+        match told {
             Ok(line) => self.console.print(&line)?,
             Err(_) => self.console.print(&self.session.describe(name))?,
         }

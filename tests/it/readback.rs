@@ -251,7 +251,9 @@ fn the_colour_of_an_object_goes_into_every_format_that_knows_colours() {
             [0.5 + x / 2.0, 0.25, z.abs()]
         }),
         // Beyond 0 and 1 it is cut off.
-        ("x4 : CONSTANT = 0; gob_a : COLOR = [3*x1, x1 - 9, 9 + x2];", |[x, ..], _| [(3.0 * x).clamp(0.0, 1.0), 0.0, 1.0]),
+        ("x4 : CONSTANT = 0; gob_a : COLOR = [3*x1, x1 - 9, 9 + x2];", |[x, ..], _| {
+            [(3.0 * x).clamp(0.0, 1.0), 0.0, 1.0]
+        }),
         ("x4min = 0; x4max = 0.5; x4_delta = 0.5; gob_a : COLOR = [x4, 1 - x4, x2**2/4];", |[_, y, _], t| {
             [t, 1.0 - t, y * y / 4.0]
         }),
@@ -273,5 +275,41 @@ fn the_colour_of_an_object_goes_into_every_format_that_knows_colours() {
     for format in [Format::Obj, Format::Ply, Format::Glb, Format::ThreeMf] {
         let read = coloured(&format!("{ball} x4 : CONSTANT = 0;"), format);
         assert!(read.colours[0].is_empty(), "{format:?}: colours that nobody gave");
+    }
+}
+
+#[test]
+fn several_objects_are_parts_under_their_names_or_are_refused() {
+    let script = "gob_a = 1 - (x1 + 1.5)**2 - x2**2 - x3**2; gob_b = 0.5 + x4 - (x1 - 1.5)**2 - x2**2 - x3**2;
+        gob_a : COLOR = [1, 0, 0]; x1min=-3;x1max=3;x2min=-2;x2max=2;x3min=-2;x3max=2; x4min=0; x4max=0.5; x4_delta=0.5;";
+    let mut session = crate::session::session();
+    assert!(session.input("a.geo", script, Mode::Script).accepted);
+    let mut options = options();
+    (options.view.object, options.view.beside) = (Some("gob_a".into()), vec!["gob_b".into()]);
+    let mut made = |format| {
+        let output = Output::parse("-", Some(format)).expect("a format");
+        let mut bytes = Vec::new();
+        request::write(&mut session, &output, &options, &mut bytes).map(|_| bytes)
+    };
+    for (format, frames) in [(Format::Obj, 1), (Format::Glb, 2), (Format::ThreeMf, 1)] {
+        let bytes = made(format).unwrap_or_else(|told| panic!("{format:?}: {told:?}"));
+        let read = match format {
+            Format::Obj => files::obj(&bytes),
+            Format::Glb => files::glb(&bytes),
+            _ => files::threemf(&bytes),
+        };
+        assert_eq!(read.meshes.len(), 2 * frames, "{format:?}");
+        for (n, ((name, mesh), colours)) in read.meshes.iter().zip(&read.colours).enumerate() {
+            let (is, radius) = if n % 2 == 0 { ("gob_a", 1.0) } else { ("gob_b", (0.5 + 0.5 * (n / 2) as f64).sqrt()) };
+            assert!(name.starts_with(is), "{format:?}: {name}");
+            closed(mesh).unwrap_or_else(|fault| panic!("{format:?}, {name}: {fault}"));
+            let ball = 4.0 / 3.0 * std::f64::consts::PI * f64::powi(radius, 3);
+            assert!((volume(mesh)[0] / ball - 1.0).abs() < 0.1, "{format:?}, {name}");
+            assert_eq!(colours.first().copied(), (n % 2 == 0).then_some([255, 0, 0]), "{format:?}, {name}");
+        }
+    }
+    for format in [Format::Stl, Format::Ply] {
+        let told = made(format).expect_err("one object a file");
+        assert!(told[0].code == "several-objects" && told[0].help.iter().any(|h| h.contains(".glb")), "{told:?}");
     }
 }

@@ -61,10 +61,10 @@ impl<'a> Making<'a> {
     /// One mesh a file, or several objects, all frames or all sections in one.
     pub(super) fn meshes(&mut self) -> Result<(), Diagnostic> {
         self.need(3, "a mesh")?;
-        self.subject.is_alone("a mesh")?;
         let is_glb = self.output.format == Format::Glb;
         let shown = self.subject.shown_by("such a mesh", if is_glb { &["G", "C", "levels"] } else { &[] });
         shown.map_err(|told| if is_glb { told } else { told.help("a .glb holds a group; a .png shows a sheet") })?;
+        self.several()?;
         let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
         let phase = self.shop.interrupt.phase("compile");
         let members = self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?;
@@ -90,6 +90,19 @@ impl<'a> Making<'a> {
         Ok(())
     }
 
+    /// Refuses several objects where the format holds one, or where each of them is already several.
+    fn several(&self) -> Result<(), Diagnostic> {
+        if let Format::Stl | Format::Ply = self.output.format {
+            let what = format!("an .{}", self.output.format.extension()).replace("an .p", "a .p");
+            let keep = "an .obj, .glb or .3mf keeps them apart under their names";
+            self.subject.is_alone(&what).map_err(|told| told.help(keep))?;
+        }
+        if self.subject.beside.is_empty() {
+            return Ok(());
+        }
+        self.subject.all().try_for_each(|one| one.shown_by("a mesh of several objects", &[]))
+    }
+
     /// The objects of the file with their colours.
     fn wanted(&self) -> Result<Vec<Wanted<'a>>, Diagnostic> {
         let palette = Palette::from_name(&self.options.picture.palette).unwrap_or_default();
@@ -99,7 +112,7 @@ impl<'a> Making<'a> {
             let paint = if coloured { subject.paint(graph, palette, limits)? } else { None };
             Ok(Wanted { subject, shape: subject.shape(graph, Demand::Sign, limits)?, paint })
         };
-        [self.subject].into_iter().map(one).collect()
+        self.subject.all().map(one).collect()
     }
 
     /// The boundaries of all objects at a moment; one that is empty beside others is left out.

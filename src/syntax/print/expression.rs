@@ -217,7 +217,9 @@ impl<'t> Writer<'t> {
             ExprKind::Compare { first, rest } => {
                 self.operand(first, COMPARE + 1);
                 for (op, at, operand) in rest {
-                    let spelt = self.source.and_then(|s| s.get(at.range())).unwrap_or_else(|| compare_op(*op));
+                    // As an argument, `a = (NOT b)` would set `a`.
+                    let written = self.source.filter(|_| !is_negation(operand)).and_then(|s| s.get(at.range()));
+                    let spelt = written.unwrap_or_else(|| compare_op(*op));
                     self.push(&format!(" {spelt} "));
                     self.operand(operand, COMPARE + 1);
                 }
@@ -335,6 +337,12 @@ fn chain_op(op: ChainOp) -> &'static str {
 }
 
 /// `==` rather than `=`, which would define at the start of a statement and name a setting in a call.
+/// `(NOT a)`.
+fn is_negation(e: &Expr) -> bool {
+    let ExprKind::Paren(inner) = &e.kind else { return false };
+    matches!(inner.kind, ExprKind::Prefix { op: PrefixOp::Not, .. })
+}
+
 fn compare_op(op: CompareOp) -> &'static str {
     match op {
         CompareOp::Less => "<",
