@@ -30,8 +30,10 @@ pub fn view(making: &Making) -> View {
             .map(|extent| (Coordinate(extent.coordinate), extent.lo, extent.hi))
             .collect(),
         cells,
+        precision: making.fineness.precision.into(),
     }
 }
+
 /// Makes one output and tells what was made.
 ///
 /// # Errors

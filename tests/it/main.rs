@@ -24,6 +24,7 @@ mod picture;
 mod plots;
 mod propagation;
 mod prospero;
+mod questions;
 mod repl;
 mod session;
 mod solids;

@@ -10,17 +10,18 @@ use crate::picture::palette::Palette;
 use crate::surface::check::{Topology, check};
 use crate::surface::contour::outlines;
 use crate::surface::grid::Grid;
-use crate::surface::marching::{Extraction, SurfaceError, extract};
+use crate::surface::marching::{Extraction, Report, SurfaceError, extract};
 use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
 use crate::vm::{Demand, Shape};
 
 use super::PictureOptions;
 use super::charts::legend;
-use super::make::{Making, cancelled, empty};
+use super::make::{Making, cancelled};
 use super::output::Format;
 use super::pictures::Artist;
 use super::subject::{Member, Subject};
+use super::told::{self, empty};
 
 /// Pixels along each side of the picture in a 3MF file.
 const THUMBNAIL: usize = 256;
@@ -115,27 +116,25 @@ impl Making<'_> {
     fn solid(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Mesh, String), Diagnostic> {
         match self.mesh(shape, grid, moment)? {
             (Some(mesh), line, _) => Ok((mesh, line)),
-            (None, _, samples) => Err(empty(self.subject, Some(moment), Some(samples))),
+            (None, _, report) => Err(empty(self.subject, Some(moment), Some(&report))),
         }
     }
 
     /// The checked boundary; none if it is empty.
-    fn mesh(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Option<Mesh>, String, u64), Diagnostic> {
+    fn mesh(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Option<Mesh>, String, Report), Diagnostic> {
         let shape = self.subject.at(shape, moment);
         let extraction = extract(&shape, grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
-        let samples = extraction.report.samples;
-        self.undefined(&extraction.report.counters);
         if extraction.mesh.is_empty() {
-            return Ok((None, String::new(), samples));
+            return Ok((None, String::new(), extraction.report));
         }
+        self.say(told::of_report(self.subject, &extraction.report));
         let topology = check(&extraction.mesh).map_err(|fault| {
             Diagnostic::error("mesh-fault", format!("the mesh of `{}` has a fault: {fault}", self.subject.name))
                 .category(Category::Result)
                 .help("nothing was written; another --resolution usually avoids it")
         })?;
-        self.cut(&extraction);
         let line = mesh_line(&extraction, &topology);
-        Ok((Some(extraction.mesh), line, samples))
+        Ok((Some(extraction.mesh), line, extraction.report))
     }
 
     /// The bytes of a small picture, for the format that holds one.
@@ -171,7 +170,9 @@ impl Making<'_> {
             for (member, [r, g, b, _]) in members.iter().zip(&colours) {
                 let shape = self.subject.at(&member.shape, moment);
                 let found = outlines(&shape, &grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
-                self.undefined(&found.counters);
+                if !found.lines.is_empty() {
+                    self.say(told::of_report(self.subject, &found.report));
+                }
                 let colour = (!single && self.options.slices.is_none()).then_some([*r, *g, *b]);
                 slices.push(svg::Slice { marks: member.marks.clone(), loops: found.lines, colour });
             }
@@ -185,23 +186,6 @@ impl Making<'_> {
             self.put(n, &mut |out| svg::write(&slices, [x[0], y[0]], [x[1], y[1]], &name, &mut { out }))?;
         }
         Ok(())
-    }
-
-    fn cut(&mut self, extraction: &Extraction) {
-        let mut faces = Vec::new();
-        for (axis, sides) in self.subject.axes.iter().zip(extraction.report.cut) {
-            for (side, (cut, which)) in sides.into_iter().zip(["min", "max"]).enumerate() {
-                if cut {
-                    faces.push(format!("{}{which} = {}", axis.coordinate, axis.range[side]));
-                }
-            }
-        }
-        if faces.is_empty() || self.written.notes.iter().any(|d| d.code == "cut-by-space") {
-            return;
-        }
-        let title = format!("the modelling space cuts `{}` at {}", self.subject.name, faces.join(", "));
-        let help = "the mesh is capped there; widen the space if the object was to be whole";
-        self.written.notes.push(Diagnostic::note("cut-by-space", title).help(help));
     }
 }
 

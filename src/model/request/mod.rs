@@ -5,21 +5,27 @@ mod ask;
 mod boundaries;
 mod charts;
 pub mod fields;
+mod info;
 mod make;
 pub mod measured;
 pub mod output;
 mod pictures;
 mod solids;
+mod space;
 pub mod subject;
+mod told;
 
-pub use ask::{Info, info, measure, sample, subject, write};
-pub use fields::Sampled;
-pub use make::Written;
+pub use crate::vm::Precision;
+pub use ask::{measure, sample, sampling, subject, write};
+pub use fields::{Sampled, Sampling};
+pub use info::{Info, info};
+pub use make::{Written, cancelled};
 pub use measured::Measured;
 pub use output::{FORMATS, Format, Kind, Output, Target};
+pub(super) use space::Searched;
 pub use subject::{Sequence, Subject};
 
-use crate::field::Coordinate;
+pub use crate::field::Coordinate;
 
 /// How finely a boundary is searched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,11 +47,19 @@ pub struct View {
     pub bounds: Vec<(Coordinate, f64, f64)>,
     /// Cells; 128 along the longest side unless told.
     pub cells: Cells,
+    /// The numbers that points are computed with.
+    pub precision: Precision,
 }
 
 impl Default for View {
     fn default() -> Self {
-        Self { object: None, at: Vec::new(), bounds: Vec::new(), cells: Cells::Along(128) }
+        Self {
+            object: None,
+            at: Vec::new(),
+            bounds: Vec::new(),
+            cells: Cells::Along(128),
+            precision: Precision::Double,
+        }
     }
 }
 
