@@ -49,6 +49,29 @@ pub fn resolve(from: Option<&Path>, path: &Path) -> PathBuf {
     }
 }
 
+/// A path as a file in `folder` would name it: relative ones are made so, unless they lie on another way down; those that cannot be become
+/// absolute. Without a folder it stays what it is.
+#[must_use]
+pub fn seen_from(host: &dyn Host, folder: Option<&Path>, path: &Path) -> PathBuf {
+    let Some(folder) = folder.filter(|folder| !folder.as_os_str().is_empty() && *folder != Path::new(".")) else {
+        return path.to_path_buf();
+    };
+    let (folder, whole) = (host.identity(folder), host.identity(path));
+    match whole.strip_prefix(&folder) {
+        Ok(inside) => inside.to_path_buf(),
+        Err(_) if path.is_absolute() => path.to_path_buf(),
+        Err(_) => climb(&folder, &whole).unwrap_or(whole),
+    }
+}
+
+/// The way from a folder up and down to a file, both absolute.
+fn climb(folder: &Path, file: &Path) -> Option<PathBuf> {
+    let shared = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
+    let ups = folder.components().count() - shared;
+    // Only the root in common: the absolute path is the clearer one.
+    (shared > 1).then(|| std::iter::repeat_n(Component::ParentDir, ups).chain(file.components().skip(shared)).collect())
+}
+
 /// What was being done to the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doing {

@@ -1,7 +1,8 @@
-//! The cancel token that every long loop asks, and the progress that it reports. No signals here: the front ends set the token.
+//! The cancel token that every long loop asks, the progress that it reports, and what its phases cost. No signals here: the front ends set the token.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 /// The error of a computation that was asked to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +19,35 @@ struct State {
     cancelled: AtomicBool,
     done: AtomicU64,
     total: AtomicU64,
+    costs: Mutex<Costs>,
+}
+
+/// What the work cost since the last reset.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Costs {
+    /// Each phase by its name, in the order in which they were first met.
+    pub phases: Vec<(&'static str, Duration)>,
+    /// What was counted, by its name.
+    pub counts: Vec<(&'static str, u64)>,
+}
+
+/// A phase of the work that goes on; its time counts when it is dropped.
+#[derive(Debug)]
+pub struct Phase<'a> {
+    name: &'static str,
+    begun: Instant,
+    interrupt: &'a Interrupt,
+}
+
+impl Drop for Phase<'_> {
+    fn drop(&mut self) {
+        let time = self.begun.elapsed();
+        let mut costs = self.interrupt.lock();
+        match costs.phases.iter_mut().find(|(name, _)| *name == self.name) {
+            Some((_, sum)) => *sum += time,
+            None => costs.phases.push((self.name, time)),
+        }
+    }
 }
 
 impl Interrupt {
@@ -30,6 +60,33 @@ impl Interrupt {
     pub fn reset(&self) {
         self.state.cancelled.store(false, Ordering::Relaxed);
         self.begin(0);
+        *self.lock() = Costs::default();
+    }
+
+    // A thread that panicked while it held the lock leaves whole numbers behind.
+    fn lock(&self) -> MutexGuard<'_, Costs> {
+        self.state.costs.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Begins a phase of the work. No result depends on its time.
+    #[must_use]
+    pub fn phase(&self, name: &'static str) -> Phase<'_> {
+        Phase { name, begun: Instant::now(), interrupt: self }
+    }
+
+    /// Counts `more` of something: points, boxes.
+    pub fn count(&self, name: &'static str, more: u64) {
+        let mut costs = self.lock();
+        match costs.counts.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, sum)) => *sum += more,
+            None => costs.counts.push((name, more)),
+        }
+    }
+
+    /// What the phases took and what was counted since the last reset.
+    #[must_use]
+    pub fn costs(&self) -> Costs {
+        self.lock().clone()
     }
 
     /// Whether the work was asked to stop.

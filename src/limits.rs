@@ -19,6 +19,10 @@ pub struct Limits {
     pub array_elements: usize,
     /// Nodes of the expression graph of a session.
     pub graph_nodes: usize,
+    /// Turns of a loop that runs at each point; a point that takes more is undefined.
+    pub point_turns: usize,
+    /// Pieces into which the search for the highest value over a section may look, at each point.
+    pub section_pieces: usize,
     /// Operations of one compiled program, after maps are expanded.
     pub program_operations: usize,
     /// Bytes that one task (mesh, picture, volume) may take by estimate.
@@ -45,6 +49,8 @@ impl Default for Limits {
             loop_turns: 10_000_000,
             array_elements: 10_000_000,
             graph_nodes: 20_000_000,
+            point_turns: 10_000,
+            section_pieces: 600,
             program_operations: 8_000_000,
             memory_bytes: 4 << 30,
             data_bytes: 2 << 30,

@@ -73,6 +73,11 @@ impl SourceMap {
         self.sources.get(id.0 as usize).map(AsRef::as_ref)
     }
 
+    /// The names of all texts, in the order in which they came.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.sources.iter().map(|source| &*source.name)
+    }
+
     /// The characters that a span covers; empty if the span is not of this map.
     #[must_use]
     pub fn text(&self, span: Span) -> &str {

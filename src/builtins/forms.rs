@@ -129,6 +129,24 @@ pub(super) static TABLE: &[Builtin] = &[
         ("(GRAD(x1*x2) AT (x1 = 2, x2 = 7))[1]", 7.0),
     ),
     entry(
+        Special::Project,
+        Functions,
+        "PROJECT",
+        &["e", "x4", "lo", "hi"],
+        "The highest e over a coordinate from lo to hi: the union of the sections, the projection along that coordinate. The bounds may \
+         depend on the other coordinates; where lo > hi it is undefined.",
+        ("PROJECT(1 - x1**2 - (x4 - 2)**2, x4, 0, 5) AT (x1 = 0.5)", 0.75),
+    ),
+    entry(
+        Special::OffsetBall,
+        Functions,
+        "OFFSET_BALL",
+        &["e", "d"],
+        "The highest e in the closed ball of radius d about the point, in the coordinates that e uses: the object grown by d. For d < 0 \
+         the lowest in the ball of radius -d: the object shrunk.",
+        ("OFFSET_BALL(2 - x1, 0.5) AT (x1 = 1)", 1.5),
+    ),
+    entry(
         Special::Interpolate,
         Data,
         "INTERPOLATE",

@@ -104,6 +104,10 @@ pub enum Special {
     Diff,
     /// `GRAD(e)`
     Grad,
+    /// `PROJECT(e, x4, lo, hi)`
+    Project,
+    /// `OFFSET_BALL(e, d)`
+    OffsetBall,
     /// `INTERPOLATE(kind, file, e1, ...)`
     Interpolate,
 }
@@ -224,7 +228,8 @@ impl Builtin {
                 }
                 S::Len | S::Norm | S::Grad => Arity::Exactly(1),
                 S::Join => Arity::AtLeast(2),
-                S::Dot | S::Cross | S::Random | S::Diff => Arity::Exactly(2),
+                S::Dot | S::Cross | S::Random | S::Diff | S::OffsetBall => Arity::Exactly(2),
+                S::Project => Arity::Exactly(4),
                 S::Interpolate => Arity::Between(3, 5),
             },
         }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::model::request::{FORMATS, Format, Precision};
 use crate::picture::camera::View;
@@ -207,6 +207,33 @@ pub struct Look {
     pub slices: Option<Slices>,
 }
 
+/// Pictures on the terminal.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+#[command(next_help_heading = "Pictures")]
+pub struct Display {
+    /// How small pictures are drawn on the terminal; `auto` goes by the environment
+    #[arg(long, value_name = "WAY")]
+    pub images: Option<Images>,
+}
+
+/// Ways of drawing on a terminal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Images {
+    /// What the terminal seems to understand; nothing off a terminal
+    #[default]
+    Auto,
+    /// Half blocks, in true or 256 colours
+    Half,
+    /// The graphics protocol of kitty
+    Kitty,
+    /// The inline images of iTerm2
+    Iterm,
+    /// Sixel graphics
+    Sixel,
+    /// No pictures
+    Off,
+}
+
 /// The frames of an animation.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 #[command(next_help_heading = "Animation")]
@@ -271,6 +298,9 @@ pub struct Making {
     /// Over time
     #[command(flatten)]
     pub motion: Motion,
+    /// On the terminal
+    #[command(flatten)]
+    pub display: Display,
 }
 
 /// The options of a run, without a run, for reading them at the prompt.
@@ -279,6 +309,21 @@ pub struct Making {
 struct Options {
     #[command(flatten)]
     making: Making,
+}
+
+/// The names of the options that decide how results are made, without their dashes.
+#[must_use]
+pub fn option_names() -> Vec<String> {
+    Options::command().get_arguments().filter_map(|argument| argument.get_long().map(str::to_owned)).collect()
+}
+
+/// The values of an option that has a list of them.
+#[must_use]
+pub fn option_values(name: &str) -> Vec<String> {
+    let command = Options::command();
+    let argument = command.get_arguments().find(|argument| argument.get_long() == Some(name));
+    let values = argument.map(clap::Arg::get_possible_values).unwrap_or_default();
+    values.iter().map(|value| value.get_name().to_owned()).collect()
 }
 
 impl Making {

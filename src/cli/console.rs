@@ -87,6 +87,12 @@ impl Console {
         }
     }
 
+    /// Whether notes are told: what nobody asked for.
+    #[must_use]
+    pub fn notes(&self) -> bool {
+        !self.quiet
+    }
+
     /// Whether to tell what a result cost.
     #[must_use]
     pub fn costs(&self) -> bool {

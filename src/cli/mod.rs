@@ -9,6 +9,7 @@ pub mod progress;
 pub mod run;
 pub mod sample;
 pub mod session;
+pub mod show;
 pub mod status;
 pub mod text;
 pub mod values;

@@ -8,7 +8,7 @@ use super::arguments::Run;
 use super::console::Console;
 use super::engine::Signals;
 use super::status::Status;
-use super::{make, session};
+use super::{make, session, show};
 
 /// Runs a program, or the prompt when there is none.
 ///
@@ -22,6 +22,9 @@ pub fn run(console: &Console, signals: &Signals, run: Run, prompt: fn(Prompt) ->
     }
     let (mut session, events) = session::open(console, signals, &run.program)?;
     let value = tell(console, &events, !outputs.is_empty())?;
+    if outputs.is_empty() && !empty && !run.interactive && console.notes() && !session.objects().is_empty() {
+        show::glance(console, &mut session, &run.making)?;
+    }
     let mut status = Status::Done;
     for output in &outputs {
         status = status.or(make::make(console, &mut session, &run.making, output)?);
@@ -55,7 +58,7 @@ pub fn tell(console: &Console, events: &[Event], quiet: bool) -> Result<Option<f
         match event {
             Event::Defined(line) if quiet => console.detail(line),
             Event::Defined(line) | Event::Printed(line) => console.print(line)?,
-            Event::Value { text, number } => {
+            Event::Value { text, number, .. } => {
                 console.print(text)?;
                 last = *number;
             }

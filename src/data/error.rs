@@ -75,6 +75,13 @@ pub enum DataError {
         /// The word, shortened.
         word: String,
     },
+    /// A number that the type of the samples cannot hold.
+    Sample {
+        /// The line, counted from 1.
+        line: usize,
+        /// What was found.
+        what: String,
+    },
     /// Compressed data that are broken.
     Compression {
         /// `gzip` or `bzip2`.
@@ -106,7 +113,7 @@ impl DataError {
             Self::RawName { .. } => {
                 "name it like head_128x128x64_uint8.raw: the samples along x1, x2 and x3, then int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32 or float64, then _be if its bytes are big-endian".into()
             }
-            Self::Header { .. } | Self::NotANumber { .. } => "mend that line, or write the file again".into(),
+            Self::Header { .. } | Self::NotANumber { .. } | Self::Sample { .. } => "mend that line, or write the file again".into(),
             Self::MissingField { field, example } => format!("add a line for `{field}`, for example `{example}`"),
             Self::Dimensions { .. } => "cut out the part that is wanted as a file of one to three axes".into(),
             Self::Unsupported { help, .. } => help.clone(),
@@ -146,6 +153,7 @@ impl fmt::Display for DataError {
                 write!(f, "there are more than the {promised} {unit} that the header promises")
             }
             Self::NotANumber { line, word } => write!(f, "line {line}: `{word}` is not a number"),
+            Self::Sample { line, what } => write!(f, "line {line}: {what}"),
             Self::Compression { encoding, reason } => write!(f, "the {encoding} data are broken: {reason}"),
             Self::Detached { file, reason } => write!(f, "the header's data file `{file}` cannot be read: {reason}"),
             Self::FlatGrid => write!(f, "the axes of the grid do not span the space"),

@@ -54,6 +54,40 @@ impl NumberType {
         }
     }
 
+    /// Whether numbers of this type can be that one: whole and within its range, or anything for floating point.
+    #[must_use]
+    pub fn holds(self, value: f64) -> bool {
+        let (lo, hi) = match self {
+            Self::Int8 => (-128.0, 127.0),
+            Self::Uint8 => (0.0, 255.0),
+            Self::Int16 => (-32_768.0, 32_767.0),
+            Self::Uint16 => (0.0, 65_535.0),
+            Self::Int32 => (f64::from(i32::MIN), f64::from(i32::MAX)),
+            Self::Uint32 => (0.0, f64::from(u32::MAX)),
+            Self::Int64 => (i64::MIN as f64, i64::MAX as f64),
+            Self::Uint64 => (0.0, u64::MAX as f64),
+            Self::Float32 | Self::Float64 => return true,
+        };
+        value.fract() == 0.0 && (lo..=hi).contains(&value)
+    }
+
+    /// What messages call it.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Int8 => "a signed byte",
+            Self::Uint8 => "an unsigned byte",
+            Self::Int16 => "a signed 16-bit number",
+            Self::Uint16 => "an unsigned 16-bit number",
+            Self::Int32 => "a signed 32-bit number",
+            Self::Uint32 => "an unsigned 32-bit number",
+            Self::Int64 => "a signed 64-bit number",
+            Self::Uint64 => "an unsigned 64-bit number",
+            Self::Float32 => "a number of single precision",
+            Self::Float64 => "a number of double precision",
+        }
+    }
+
     /// The type of that name, in any of the spellings of NRRD and of file names.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
@@ -280,12 +314,12 @@ pub fn text_numbers(
                 return Err(DataError::TooMany { unit: "numbers", promised: count as u64 });
             }
             let value = number(word).ok_or_else(|| DataError::NotANumber { line: line + offset, word: shown(word) })?;
+            if !kind.holds(value) {
+                let what = format!("`{}` does not fit {}", shown(word), kind.words());
+                return Err(DataError::Sample { line: line + offset, what });
+            }
             match &mut samples {
-                Samples::Bytes(all) if f64::from(value as u8) == value => all.push(value as u8),
-                Samples::Bytes(_) => {
-                    let what = format!("`{}` does not fit an unsigned byte", shown(word));
-                    return Err(DataError::Header { line: line + offset, what });
-                }
+                Samples::Bytes(all) => all.push(value as u8),
                 Samples::Singles(all) => all.push(value as f32),
                 Samples::Doubles(all) => all.push(value),
             }

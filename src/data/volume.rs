@@ -24,6 +24,26 @@ impl Samples {
         }
     }
 
+    /// These, and behind them others of the same kind; others of another kind replace them.
+    #[must_use]
+    pub fn followed_by(self, next: Self) -> Self {
+        match (self, next) {
+            (Self::Bytes(mut all), Self::Bytes(next)) => {
+                all.extend(next);
+                Self::Bytes(all)
+            }
+            (Self::Singles(mut all), Self::Singles(next)) => {
+                all.extend(next);
+                Self::Singles(all)
+            }
+            (Self::Doubles(mut all), Self::Doubles(next)) => {
+                all.extend(next);
+                Self::Doubles(all)
+            }
+            (_, next) => next,
+        }
+    }
+
     /// Whether there is none.
     #[must_use]
     pub fn is_empty(&self) -> bool {

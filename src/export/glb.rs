@@ -3,8 +3,7 @@
 //! glTF counts in metres with Y up: one node turns Z up into Y up and takes one unit as one millimetre, so that the vertices
 //! stay those of the model. An animation has one mesh for each frame; a node's scale is 1 while its frame shows, else 0.
 
-use super::{fits_together, refuse};
-use crate::surface::mesh::Mesh;
+use super::{Part, fits_together, refuse};
 use gltf_json as json;
 use json::accessor::{ComponentType, GenericComponentType, Type};
 use json::buffer::{Target, View};
@@ -21,54 +20,26 @@ const TURN: [f32; 16] = [
     0., 0., 0., 1.,
 ];
 
-/// One frame of an animation, or one member of a group.
-#[derive(Clone, Copy, Debug)]
-pub struct Part<'a> {
-    /// What is seen.
-    pub mesh: &'a Mesh,
-    /// One sRGB colour for each vertex.
-    pub colours: Option<&'a [[u8; 3]]>,
-    /// sRGB and opacity of the whole, by which the vertices' colours are multiplied.
-    pub colour: [u8; 4],
-}
-
-impl<'a> Part<'a> {
-    /// A mesh in white, opaque.
-    #[must_use]
-    pub fn of(mesh: &'a Mesh) -> Self {
-        Part { mesh, colours: None, colour: [255; 4] }
-    }
-}
-
-/// Writes one mesh with normals, and with one sRGB colour for each vertex if there are any.
+/// Writes meshes that are seen together, each under its own name and with its normals and colours: one object, several, a group of
+/// sections, or isosurfaces that show through. `name` is that of the whole.
 ///
 /// # Errors
-/// Those of the writer; `InvalidInput` for an empty mesh, arrays that do not fit together, or more than 4 GiB.
-pub fn write(mesh: &Mesh, colours: Option<&[[u8; 3]]>, name: &str, out: &mut impl Write) -> io::Result<()> {
-    let part = Part { colours, ..Part::of(mesh) };
-    let mut file = File::default();
-    let node = file.part(&part, name, None)?;
-    file.finish(vec![node], name, out)
-}
-
-/// Writes several meshes that are seen together, each under its own name: a group of sections, or isosurfaces that show through.
-///
-/// # Errors
-/// As [`write()`]; also when there is no member.
-pub fn write_group(members: &[(&str, Part)], name: &str, out: &mut impl Write) -> io::Result<()> {
-    if members.is_empty() {
-        return Err(refuse("a group needs a member"));
+/// Those of the writer; `InvalidInput` without a part, for an empty mesh, arrays that do not fit together, or more than 4 GiB.
+pub fn write(parts: &[Part<'_>], name: &str, out: &mut impl Write) -> io::Result<()> {
+    if parts.is_empty() {
+        return Err(refuse("there is no mesh to write"));
     }
     let mut file = File::default();
-    let nodes = members.iter().map(|(name, part)| file.part(part, name, None)).collect::<io::Result<_>>()?;
+    let nodes = parts.iter().map(|part| file.part(part, part.name, None)).collect::<io::Result<_>>()?;
     file.finish(nodes, name, out)
 }
 
-/// Writes frames that follow each other every `delay` seconds, each shown for that long. A viewer that does not play shows the first.
+/// Writes frames that follow each other every `delay` seconds, each shown for that long, under their names and numbers. A viewer that
+/// does not play shows the first.
 ///
 /// # Errors
 /// As [`write()`]; also when there is no frame or `delay` is not above 0.
-pub fn write_animation(frames: &[Part], delay: f64, name: &str, out: &mut impl Write) -> io::Result<()> {
+pub fn write_animation(frames: &[Part<'_>], delay: f64, name: &str, out: &mut impl Write) -> io::Result<()> {
     if frames.is_empty() || !(delay > 0. && delay.is_finite()) {
         return Err(refuse("an animation needs a frame and a time above 0 for each"));
     }
@@ -76,7 +47,7 @@ pub fn write_animation(frames: &[Part], delay: f64, name: &str, out: &mut impl W
     let mut nodes = Vec::with_capacity(frames.len());
     for (i, frame) in frames.iter().enumerate() {
         let scale = if i == 0 { 1. } else { 0. };
-        nodes.push(file.part(frame, &format!("{name}-{i:03}"), Some([scale; 3]))?);
+        nodes.push(file.part(frame, &format!("{}-{i:03}", frame.name), Some([scale; 3]))?);
     }
     if frames.len() > 1 {
         file.animate(&nodes, delay);
@@ -135,7 +106,7 @@ fn linear_table() -> [u16; 256] {
 struct File<'a> {
     root: Root,
     pieces: Vec<Piece<'a>>,
-    colours: Vec<[u8; 4]>,
+    tints: Vec<[u8; 4]>,
     length: u64,
 }
 
@@ -194,7 +165,7 @@ impl<'a> File<'a> {
     /// Adds a mesh and the node that shows it.
     fn part(&mut self, part: &Part<'a>, name: &str, scale: Option<[f32; 3]>) -> io::Result<Index<json::Node>> {
         let mesh = part.mesh;
-        fits_together(mesh, part.colours)?;
+        fits_together(part)?;
         let count = mesh.positions.len();
         let mut attributes = std::collections::BTreeMap::new();
         let layout =
@@ -216,7 +187,7 @@ impl<'a> File<'a> {
             ..Layout::vertices(mesh.triangles.len() * 3, ComponentType::U32, Type::Scalar)
         };
         let indices = self.piece(Piece::Triangles(&mesh.triangles), layout);
-        let material = self.material(part.colour);
+        let material = self.material(part.tint);
         let primitive = json::mesh::Primitive {
             attributes,
             indices: Some(indices),
@@ -239,10 +210,10 @@ impl<'a> File<'a> {
     /// The number of the matt material of a colour, added when it is new.
     fn material(&mut self, colour: [u8; 4]) -> Index<json::Material> {
         use json::material::{AlphaMode, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
-        if let Some(known) = self.colours.iter().position(|c| *c == colour) {
+        if let Some(known) = self.tints.iter().position(|c| *c == colour) {
             return Index::new(known as u32);
         }
-        self.colours.push(colour);
+        self.tints.push(colour);
         let linear = linear_table();
         let [r, g, b] = [0, 1, 2].map(|k| f32::from(linear[usize::from(colour[k])]) / 65535.);
         let opaque = colour[3] == 255;

@@ -25,6 +25,8 @@ pub enum Encoding {
 /// Samples on a grid of one to three axes.
 #[derive(Clone, Copy, Debug)]
 pub struct Field<'a> {
+    /// What was sampled.
+    pub name: &'a str,
     /// Samples along each axis.
     pub size: &'a [usize],
     /// World coordinates of the first sample, one for each axis.
@@ -64,6 +66,8 @@ pub fn write(field: &Field<'_>, encoding: Encoding, out: &mut impl Write) -> io:
 /// The header, its empty line included. Numbers in the shortest digits that read back the same.
 fn header(field: &Field<'_>, encoding: Encoding) -> String {
     let axes = field.size.len();
+    // A line's end within the name would begin another line of the header.
+    let name: String = field.name.chars().filter(|c| !c.is_control()).collect();
     let kind = match field.samples {
         Samples::Bytes(_) => "uint8",
         Samples::Singles(_) => "float",
@@ -78,11 +82,12 @@ fn header(field: &Field<'_>, encoding: Encoding) -> String {
         Encoding::Gzip => "gzip",
     };
     format!(
-        "NRRD0004\ntype: {kind}\ndimension: {axes}\nspace dimension: {axes}\nsizes: {}\nspace directions: {}\nspace origin: ({})\n\
-         kinds:{}\nendian: little\nencoding: {encoding}\n\n",
+        "NRRD0004\ncontent: {name}\ntype: {kind}\ndimension: {axes}\nspace dimension: {axes}\nsizes: {}\nspace directions: {}\n\
+         space origin: ({})\nspace units:{}\nkinds:{}\nendian: little\nencoding: {encoding}\n\n",
         joined(field.size, " "),
         directions.join(" "),
         joined(field.origin, ","),
+        " \"mm\"".repeat(axes),
         " domain".repeat(axes),
     )
 }

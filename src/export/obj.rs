@@ -1,40 +1,77 @@
 //! Wavefront OBJ: vertices and normals as text, in the shortest digits that read back the same
-//! (in single precision for normals). The same mesh gives the same bytes.
+//! (in single precision for normals). Objects under their names; colours behind the vertices, as most readers know them. The same
+//! parts give the same bytes.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use crate::surface::mesh::Mesh;
+use super::{Part, fits_together, refuse};
 
-/// Writes a mesh.
+/// Writes meshes, each as an object of its own.
 ///
 /// # Errors
-/// Those of the writer.
-pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+/// Those of the writer; `InvalidInput` without a part, for an empty mesh or arrays that do not fit together.
+pub fn write(parts: &[Part<'_>], out: &mut impl Write) -> io::Result<()> {
+    if parts.is_empty() {
+        return Err(refuse("there is no mesh to write"));
+    }
+    parts.iter().try_for_each(fits_together)?;
     out.write_all(b"# OBJ written by yont; unit mm, Z up\n")?;
-    lines(&mesh.positions, out, |text, p| vector(text, "v", p.map(|c| number(c + 0.0))))?;
-    lines(&mesh.normals, out, |text, n| vector(text, "vn", n.map(|c| (c as f32 + 0.0).to_string())))?;
-    lines(&mesh.triangles, out, |text, triangle| {
-        let [a, b, c] = triangle.map(|v| u64::from(v) + 1);
-        let _ = writeln!(text, "f {a}//{a} {b}//{b} {c}//{c}");
-    })?;
+    // Numbers of vertices, and of normals, go on from object to object.
+    let (mut first, mut first_normal) = (1, 1);
+    for part in parts {
+        object(part, first, first_normal, out)?;
+        first += part.mesh.positions.len() as u64;
+        first_normal += part.mesh.normals.len() as u64;
+    }
     out.flush()
 }
 
+/// One object, whose first vertex and normal have these numbers.
+fn object(part: &Part<'_>, first: u64, first_normal: u64, out: &mut impl Write) -> io::Result<()> {
+    let mesh = part.mesh;
+    writeln!(out, "o {}", word(part.name))?;
+    let positions = mesh.positions.iter().enumerate();
+    lines(positions, out, |text, (n, p)| {
+        vector(text, "v", p.map(|c| number(c + 0.0)));
+        if let Some(colours) = part.colours {
+            vector(text, "", colours[n].map(share));
+        }
+        text.push('\n');
+    })?;
+    lines(mesh.normals.iter(), out, |text, n| {
+        vector(text, "vn", n.map(|c| (c as f32 + 0.0).to_string()));
+        text.push('\n');
+    })?;
+    let smooth = !mesh.normals.is_empty();
+    lines(mesh.triangles.iter(), out, |text, triangle| {
+        text.push('f');
+        for &v in triangle {
+            // Writing to a string cannot fail.
+            let _ = write!(text, " {}", first + u64::from(v));
+            if smooth {
+                let _ = write!(text, "//{}", first_normal + u64::from(v));
+            }
+        }
+        text.push('\n');
+    })
+}
+
 /// A line for each item, handed on some thousands at a time.
-fn lines<T>(items: &[T], out: &mut impl Write, line: impl Fn(&mut String, &T)) -> io::Result<()> {
+fn lines<T>(mut items: impl Iterator<Item = T>, out: &mut impl Write, line: impl Fn(&mut String, T)) -> io::Result<()> {
     let mut text = String::new();
-    for chunk in items.chunks(4096) {
+    loop {
         text.clear();
-        chunk.iter().for_each(|item| line(&mut text, item));
+        items.by_ref().take(4096).for_each(|item| line(&mut text, item));
+        if text.is_empty() {
+            return Ok(());
+        }
         out.write_all(text.as_bytes())?;
     }
-    Ok(())
 }
 
 fn vector(text: &mut String, keyword: &str, [x, y, z]: [String; 3]) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "{keyword} {x} {y} {z}");
+    let _ = write!(text, "{keyword} {x} {y} {z}");
 }
 
 /// Without an exponent where that is not long.
@@ -43,4 +80,15 @@ fn number(c: f64) -> String {
         0.0 | 1e-5..1e16 => c.to_string(),
         _ => format!("{c:e}"),
     }
+}
+
+/// A byte of a colour as a part of 1, to four digits: enough to find the byte again.
+fn share(byte: u8) -> String {
+    ((f64::from(byte) / 255.0 * 1e4).round() / 1e4).to_string()
+}
+
+/// A name as one word, since readers disagree on names with spaces.
+fn word(name: &str) -> String {
+    let plain = |c: char| if c.is_whitespace() || c.is_control() { '_' } else { c };
+    if name.is_empty() { "object".to_owned() } else { name.chars().map(plain).collect() }
 }

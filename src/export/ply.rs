@@ -1,26 +1,27 @@
-//! Binary PLY, little-endian: vertices and normals in single precision, triangles by number. The same mesh gives the same bytes.
+//! Binary PLY, little-endian: vertices and normals in single precision, with colours if there are any, triangles by number. One object
+//! a file. The same part gives the same bytes.
 
 use std::io::{self, Write};
 
-use crate::surface::mesh::Mesh;
+use super::{Part, fits_together};
 
 /// Writes a mesh.
 ///
 /// # Errors
-/// Those of the writer.
-pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "ply\nformat binary_little_endian 1.0\ncomment written by yont; unit mm, Z up")?;
-    writeln!(out, "element vertex {}", mesh.positions.len())?;
-    for name in ["x", "y", "z", "nx", "ny", "nz"] {
-        writeln!(out, "property float {name}")?;
-    }
-    writeln!(out, "element face {}\nproperty list uchar uint vertex_indices\nend_header", mesh.triangles.len())?;
+/// Those of the writer; `InvalidInput` for an empty mesh or arrays that do not fit together.
+pub fn write(part: &Part<'_>, out: &mut impl Write) -> io::Result<()> {
+    fits_together(part)?;
+    out.write_all(header(part).as_bytes())?;
+    let mesh = part.mesh;
     let mut buffer = Vec::new();
-    let vertices: Vec<_> = mesh.positions.iter().zip(&mesh.normals).collect();
-    for chunk in vertices.chunks(4096) {
+    for first in (0..mesh.positions.len()).step_by(4096) {
         buffer.clear();
-        for number in chunk.iter().flat_map(|(p, n)| p.iter().chain(n.iter())) {
-            buffer.extend_from_slice(&(*number as f32 + 0.0).to_le_bytes());
+        for v in first..(first + 4096).min(mesh.positions.len()) {
+            let normal = mesh.normals.get(v).into_iter().flatten();
+            for number in mesh.positions[v].iter().chain(normal) {
+                buffer.extend_from_slice(&(*number as f32 + 0.0).to_le_bytes());
+            }
+            buffer.extend(part.colours.iter().flat_map(|colours| colours[v]));
         }
         out.write_all(&buffer)?;
     }
@@ -33,4 +34,22 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
         out.write_all(&buffer)?;
     }
     out.flush()
+}
+
+fn header(part: &Part<'_>) -> String {
+    let mesh = part.mesh;
+    // A line's end within the name would begin another line of the header.
+    let name: String = part.name.chars().filter(|c| !c.is_control()).collect();
+    let numbers = if mesh.normals.is_empty() { &["x", "y", "z"][..] } else { &["x", "y", "z", "nx", "ny", "nz"] };
+    let colours = if part.colours.is_some() { &["red", "green", "blue"][..] } else { &[] };
+    let property =
+        |kind: &str, names: &[&str]| names.iter().map(|n| format!("property {kind} {n}\n")).collect::<String>();
+    format!(
+        "ply\nformat binary_little_endian 1.0\ncomment {name}, written by yont; unit mm, Z up\nelement vertex {}\n{}{}\
+         element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+        mesh.positions.len(),
+        property("float", numbers),
+        property("uchar", colours),
+        mesh.triangles.len(),
+    )
 }

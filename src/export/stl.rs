@@ -1,22 +1,31 @@
-//! Binary STL: triangles in single precision, each with its normal. Z is up, a unit is a millimetre. The same mesh gives the same bytes.
+//! Binary STL: triangles in single precision, each with its normal. Z is up, a unit is a millimetre. Neither colours nor
+//! more than one object. The same part gives the same bytes.
 
 use std::io::{self, Write};
 
+use super::{Part, fits_together};
 use crate::surface::mesh::{Mesh, cross, minus, unit};
 
-/// What the first 80 bytes begin with; never `solid`, by which readers know the text form.
-const TITLE: &[u8] = b"binary STL written by yont; unit mm, Z up";
+/// The first 80 bytes: what wrote it and of what. They never begin with `solid`, by which readers know the text form.
+fn title(name: &str) -> [u8; 80] {
+    let mut title = [0; 80];
+    // Readers expect ASCII there.
+    let name = name.chars().map(|c| if c.is_ascii_graphic() || c == ' ' { c } else { '?' });
+    let text = "binary STL written by yont; unit mm, Z up; ".chars().chain(name);
+    title.iter_mut().zip(text).for_each(|(byte, c)| *byte = c as u8);
+    title
+}
 
-/// Writes a mesh.
+/// Writes a mesh; colours have no place in it.
 ///
 /// # Errors
-/// Those of the writer; `InvalidInput` for more triangles than the format can count.
-pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+/// Those of the writer; `InvalidInput` for an empty mesh and for more triangles than the format can count.
+pub fn write(part: &Part<'_>, out: &mut impl Write) -> io::Result<()> {
+    fits_together(part)?;
+    let mesh = part.mesh;
     let count = u32::try_from(mesh.triangles.len())
         .map_err(|_| io::Error::new(io::ErrorKind::InvalidInput, "more triangles than STL can count"))?;
-    let mut header = [0; 80];
-    header[..TITLE.len()].copy_from_slice(TITLE);
-    out.write_all(&header)?;
+    out.write_all(&title(part.name))?;
     out.write_all(&count.to_le_bytes())?;
     let mut buffer = Vec::with_capacity(50 * 1024);
     for chunk in mesh.triangles.chunks(1024) {

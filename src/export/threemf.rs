@@ -2,7 +2,7 @@
 //!
 //! A model of millions of triangles goes straight into the compressor: no tree of it is ever built.
 
-use super::fits_together;
+use super::{Part, fits_together, refuse};
 use crate::surface::mesh::Mesh;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -34,19 +34,18 @@ const TRIANGLE_BYTES: u64 = 128;
 
 type Package<'a, W> = ZipWriter<StreamWriter<Gate<'a, W>>>;
 
-/// Writes one mesh: one sRGB colour for each vertex if there are any, and the bytes of a PNG as thumbnail if there is one.
+/// Writes meshes, each as an object of its own with its colours, and the bytes of a PNG as thumbnail if there is one. `name` is that of
+/// the whole.
 ///
 /// # Errors
-/// Those of the writer; `InvalidInput` for an empty mesh or arrays that do not fit together.
-pub fn write<W: Write>(
-    mesh: &Mesh,
-    colours: Option<&[[u8; 3]]>,
-    thumbnail: Option<&[u8]>,
-    name: &str,
-    out: &mut W,
-) -> io::Result<()> {
-    fits_together(mesh, colours)?;
-    let text = mesh.positions.len() as u64 * VERTEX_BYTES + mesh.triangles.len() as u64 * TRIANGLE_BYTES;
+/// Those of the writer; `InvalidInput` without a part, for an empty mesh or arrays that do not fit together.
+pub fn write<W: Write>(parts: &[Part<'_>], thumbnail: Option<&[u8]>, name: &str, out: &mut W) -> io::Result<()> {
+    if parts.is_empty() {
+        return Err(refuse("there is no mesh to write"));
+    }
+    parts.iter().try_for_each(fits_together)?;
+    let bytes = |mesh: &Mesh| mesh.positions.len() as u64 * VERTEX_BYTES + mesh.triangles.len() as u64 * TRIANGLE_BYTES;
+    let text: u64 = parts.iter().map(|part| bytes(part.mesh)).sum();
     let small = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Deflated);
     let mut package = ZipWriter::new_stream(Gate { out, shut: false });
     package.start_file("[Content_Types].xml", small)?;
@@ -58,7 +57,7 @@ pub fn write<W: Write>(
     }
     package.write_all(b"</Relationships>\n")?;
     package.start_file("3D/3dmodel.model", small.large_file(text > u64::from(u32::MAX)))?;
-    model(&mut package, mesh, colours, name)?;
+    model(&mut package, parts, name)?;
     if let Some(png) = thumbnail {
         package.start_file("Metadata/thumbnail.png", small.compression_method(zip::CompressionMethod::Stored))?;
         package.write_all(png)?;
@@ -92,20 +91,44 @@ impl<W: Write> Write for Gate<'_, W> {
     }
 }
 
-fn model<W: Write>(out: &mut Package<W>, mesh: &Mesh, colours: Option<&[[u8; 3]]>, name: &str) -> io::Result<()> {
+fn model<W: Write>(out: &mut Package<W>, parts: &[Part<'_>], name: &str) -> io::Result<()> {
     let mut out = io::BufWriter::with_capacity(1 << 16, out);
     writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
     write!(out, r#"<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}""#)?;
-    if colours.is_some() {
+    if parts.iter().any(|part| part.colours.is_some_and(varies)) {
         write!(out, r#" xmlns:m="{MATERIAL}""#)?;
     }
     writeln!(out, ">")?;
     writeln!(out, r#"<metadata name="Title">{}</metadata>"#, escaped(name))?;
     writeln!(out, r#"<metadata name="Application">yont</metadata>"#)?;
     writeln!(out, "<resources>")?;
-    let numbers = colours.map(|colours| colour_group(&mut out, colours)).transpose()?;
-    let group = if numbers.is_some() { r#" pid="1" pindex="0""# } else { "" };
-    writeln!(out, r#"<object id="2" type="model" name="{}"{group}><mesh><vertices>"#, escaped(name))?;
+    // What a number names must stand above its use: colours take the odd numbers, objects the even ones.
+    for (n, part) in parts.iter().enumerate() {
+        object(&mut out, part, 2 * n + 1)?;
+    }
+    writeln!(out, "</resources>")?;
+    write!(out, "<build>")?;
+    for n in 0..parts.len() {
+        write!(out, r#"<item objectid="{}"/>"#, 2 * n + 2)?;
+    }
+    writeln!(out, "</build>")?;
+    writeln!(out, "</model>")?;
+    out.flush()
+}
+
+/// One object and before it its colours, which have the number `id` as the object has the next one.
+fn object(out: &mut impl Write, part: &Part<'_>, id: usize) -> io::Result<()> {
+    let Part { name, mesh, colours, .. } = *part;
+    let numbers = match colours {
+        Some(colours) if varies(colours) => Some(colour_group(out, colours, id)?),
+        Some(&[colour, ..]) => {
+            base_material(out, name, colour, id)?;
+            None
+        }
+        _ => None,
+    };
+    let material = if colours.is_some() { format!(r#" pid="{id}" pindex="0""#) } else { String::new() };
+    writeln!(out, r#"<object id="{}" type="model" name="{}"{material}><mesh><vertices>"#, id + 1, escaped(name))?;
     for position in &mesh.positions {
         // Adding zero turns -0 into 0.
         let [x, y, z] = position.map(|x| x as f32 + 0.);
@@ -116,22 +139,32 @@ fn model<W: Write>(out: &mut Package<W>, mesh: &Mesh, colours: Option<&[[u8; 3]]
         write!(out, r#"<triangle v1="{a}" v2="{b}" v3="{c}""#)?;
         if let Some(numbers) = &numbers {
             let [a, b, c] = [a, b, c].map(|corner| numbers[corner as usize]);
-            write!(out, r#" pid="1" p1="{a}" p2="{b}" p3="{c}""#)?;
+            write!(out, r#" pid="{id}" p1="{a}" p2="{b}" p3="{c}""#)?;
         }
         writeln!(out, "/>")?;
     }
-    writeln!(out, "</triangles></mesh></object>")?;
-    writeln!(out, "</resources>")?;
-    writeln!(out, r#"<build><item objectid="2"/></build>"#)?;
-    writeln!(out, "</model>")?;
-    out.flush()
+    writeln!(out, "</triangles></mesh></object>")
+}
+
+/// Whether the vertices have more than one colour.
+fn varies(colours: &[[u8; 3]]) -> bool {
+    colours.windows(2).any(|pair| pair[0] != pair[1])
+}
+
+/// One colour for the whole object, as the core of the format has it: programs without its extension for colours know it too.
+fn base_material(out: &mut impl Write, name: &str, [r, g, b]: [u8; 3], id: usize) -> io::Result<()> {
+    let name = escaped(name);
+    writeln!(
+        out,
+        r##"<basematerials id="{id}"><base name="{name}" displaycolor="#{r:02X}{g:02X}{b:02X}"/></basematerials>"##
+    )
 }
 
 /// Writes each colour once, in the order of first use, and tells which number each vertex has in that list.
-fn colour_group(out: &mut impl Write, colours: &[[u8; 3]]) -> io::Result<Vec<u32>> {
+fn colour_group(out: &mut impl Write, colours: &[[u8; 3]], id: usize) -> io::Result<Vec<u32>> {
     let mut seen = BTreeMap::new();
     let mut numbers = Vec::with_capacity(colours.len());
-    writeln!(out, r#"<m:colorgroup id="1">"#)?;
+    writeln!(out, r#"<m:colorgroup id="{id}">"#)?;
     for colour in colours {
         let next = seen.len() as u32;
         let number = *seen.entry(colour).or_insert(next);

@@ -81,11 +81,34 @@ impl Graph {
         }
     }
 
+    /// A node of any graph, with its operands replaced by nodes of this one.
+    pub fn rebuilt(&mut self, node: &Node, operand: impl Fn(NodeId) -> NodeId) -> NodeId {
+        match node {
+            Node::Constant(c) => self.constant(c.get()),
+            Node::Coordinate(c) => self.coordinate(*c),
+            Node::Unary(op, a) => self.unary(*op, operand(*a)),
+            Node::Binary(op, a, b) => self.binary(*op, operand(*a), operand(*b)),
+            Node::Ternary(op, [a, b, c]) => self.ternary(*op, operand(*a), operand(*b), operand(*c)),
+            Node::Leaf(leaf, arguments) => {
+                let arguments: Vec<NodeId> = arguments.iter().map(|a| operand(*a)).collect();
+                self.leaf(leaf.clone(), &arguments)
+            }
+            Node::Region(region, output, arguments) => {
+                let arguments = arguments.iter().map(|a| operand(*a)).collect();
+                self.intern(Node::Region(region.clone(), *output, arguments))
+            }
+            Node::Map(body, mapping) => {
+                let mapping: Vec<(Coordinate, NodeId)> = mapping.iter().map(|(c, e)| (*c, operand(*e))).collect();
+                self.map(operand(*body), &mapping)
+            }
+        }
+    }
+
     /// `body AT (mapping)`: each listed coordinate replaced by its expression, all at once. A coordinate that is listed twice takes
     /// its last expression; those that the body does not use, and those that stay what they are, are dropped.
     pub fn map(&mut self, body: NodeId, mapping: &[(Coordinate, NodeId)]) -> NodeId {
         let used = self.coordinates(body);
-        let mut table = [None; 16];
+        let mut table = [None; Coordinate::MOST];
         for &(c, e) in mapping.iter().filter(|(c, _)| used.contains(*c)) {
             table[usize::from(c.0) - 1] = Some(e);
         }

@@ -4,7 +4,6 @@
 use rustc_hash::FxHashMap;
 
 use super::graph::{Coordinate, Graph, Node, NodeId};
-use crate::number::{Algebra, Real};
 
 /// The expansion would take more nodes than allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,9 +15,16 @@ pub struct TooLarge {
 /// The nodes that the value at `root` needs, by number. Iterative: one pass downwards.
 #[must_use]
 pub fn reachable(graph: &Graph, root: NodeId) -> Vec<bool> {
-    let mut reached = vec![false; root.index() + 1];
-    reached[root.index()] = true;
-    for index in (0..=root.index()).rev() {
+    reachable_all(graph, &[root])
+}
+
+/// The nodes that the values at these roots need, by number.
+#[must_use]
+pub fn reachable_all(graph: &Graph, roots: &[NodeId]) -> Vec<bool> {
+    let length = roots.iter().map(|root| root.index() + 1).max().unwrap_or(0);
+    let mut reached = vec![false; length];
+    roots.iter().for_each(|root| reached[root.index()] = true);
+    for index in (0..length).rev() {
         if reached[index] {
             graph.node(id(index)).for_each_operand(|e| reached[e.index()] = true);
         }
@@ -30,22 +36,24 @@ fn id(index: usize) -> NodeId {
     NodeId(u32::try_from(index).unwrap_or(u32::MAX))
 }
 
-/// A graph with just what `root` needs, and no map in it; the root's number in it comes with it. `None` if there is no map to begin
+/// A graph with just what the roots need, and no map in it; the roots' numbers in it come with it. `None` if there is no map to begin
 /// with, so that the graph can be used as it is.
 ///
 /// # Errors
 /// [`TooLarge`] if the result would have more than `limit` nodes.
-pub fn expand(graph: &Graph, root: NodeId, limit: usize) -> Result<Option<(Graph, NodeId)>, TooLarge> {
-    let reached = reachable(graph, root);
-    let has_map = (0..=root.index()).any(|i| reached[i] && matches!(graph.node(id(i)), Node::Map(..)));
+pub fn expand(graph: &Graph, roots: &[NodeId], limit: usize) -> Result<Option<(Graph, Vec<NodeId>)>, TooLarge> {
+    let reached = reachable_all(graph, roots);
+    let has_map = (0..reached.len()).any(|i| reached[i] && matches!(graph.node(id(i)), Node::Map(..)));
     if !has_map {
         return Ok(None);
     }
-    Expansion::new(graph, limit).run(root).map(Some)
+    let mut expansion = Expansion::new(graph, limit);
+    let roots = roots.iter().map(|root| expansion.run(*root)).collect::<Result<_, _>>()?;
+    Ok(Some((expansion.result, roots)))
 }
 
 /// One expression of the new graph per coordinate.
-type Mapping = [NodeId; 16];
+type Mapping = [NodeId; Coordinate::MOST];
 
 /// Which mapping a node is seen through.
 type MappingId = u32;
@@ -68,7 +76,7 @@ impl<'a> Expansion<'a> {
         Self { source, result, limit, mappings: vec![identity], numbers, done: FxHashMap::default() }
     }
 
-    fn run(mut self, root: NodeId) -> Result<(Graph, NodeId), TooLarge> {
+    fn run(&mut self, root: NodeId) -> Result<NodeId, TooLarge> {
         let mut open = vec![(root, 0)];
         while let Some(&(node, mapping)) = open.last() {
             let before = open.len();
@@ -76,12 +84,11 @@ impl<'a> Expansion<'a> {
                 debug_assert_eq!(open.len(), before);
                 open.pop();
             }
-            if self.result.len() > self.limit.saturating_add(16) || open.len() > self.limit.saturating_mul(4) {
+            if self.result.len() > self.limit.saturating_add(Coordinate::MOST) || open.len() > self.limit.saturating_mul(4) {
                 return Err(TooLarge { limit: self.limit });
             }
         }
-        let root = self.done[&(root, 0)];
-        Ok((self.result, root))
+        Ok(self.done[&(root, 0)])
     }
 
     /// Expands one node if all that it reads is expanded, and says so; else puts what is missing on the list.
@@ -147,20 +154,12 @@ impl<'a> Expansion<'a> {
     }
 
     fn rebuild(&mut self, node: NodeId, mapping: MappingId) -> NodeId {
-        let at = |done: &FxHashMap<_, _>, e: &NodeId| -> NodeId { done[&(*e, mapping)] };
         match self.source.node(node) {
-            Node::Constant(c) => self.result.intern(Node::Constant(Real::new(c.get()))),
             Node::Coordinate(c) => self.mappings[mapping as usize][usize::from(c.0) - 1],
-            Node::Unary(op, a) => self.result.unary(*op, at(&self.done, a)),
-            Node::Binary(op, a, b) => self.result.binary(*op, at(&self.done, a), at(&self.done, b)),
-            Node::Ternary(op, [a, b, c]) => {
-                self.result.ternary(*op, at(&self.done, a), at(&self.done, b), at(&self.done, c))
+            plain => {
+                let done = &self.done;
+                self.result.rebuilt(plain, |e| done[&(e, mapping)])
             }
-            Node::Leaf(leaf, arguments) => {
-                let arguments: Vec<NodeId> = arguments.iter().map(|a| at(&self.done, a)).collect();
-                self.result.leaf(leaf.clone(), &arguments)
-            }
-            Node::Map(..) => unreachable!("maps are seen through, never rebuilt"),
         }
     }
 }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
+use super::region::SharedRegion;
 use crate::number::{Binary, Real, Ternary, Unary};
 
 /// A node of a [`Graph`].
@@ -23,9 +24,17 @@ impl NodeId {
     }
 }
 
-/// A coordinate x1 ... x16, by its number from 1.
+/// A coordinate x1 ... x16, by its number from 1; numbers beyond those stand for what no text names: the variables that a loop changes
+/// while it is built, and a parameter by which something is derived. In the graph of a [`super::Region`] they are its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Coordinate(pub u8);
+
+impl Coordinate {
+    /// The largest number.
+    pub const MOST: usize = 128;
+    /// The largest number that a text can name.
+    pub const NAMED: usize = 16;
+}
 
 impl fmt::Display for Coordinate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -64,6 +73,8 @@ pub enum Node {
     Ternary(Ternary, [NodeId; 3]),
     /// Data at the mapped point: volumes, meshes.
     Leaf(SharedLeaf, Arc<[NodeId]>),
+    /// An output, by its number, of a region applied to these arguments.
+    Region(SharedRegion, u32, Arc<[NodeId]>),
     /// `body AT (...)`: the body with each listed coordinate replaced, all at once. Sorted by coordinate, each once.
     Map(NodeId, Arc<[(Coordinate, NodeId)]>),
 }
@@ -83,7 +94,7 @@ impl Node {
                 f(*b);
                 f(*c);
             }
-            Self::Leaf(_, arguments) => arguments.iter().copied().for_each(f),
+            Self::Leaf(_, arguments) | Self::Region(_, _, arguments) => arguments.iter().copied().for_each(f),
             Self::Map(body, mapping) => {
                 f(*body);
                 mapping.iter().for_each(|(_, e)| f(*e));
@@ -94,9 +105,12 @@ impl Node {
 
 /// Which coordinates a node's value depends on: bit i for x(i+1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Coordinates(pub u16);
+pub struct Coordinates(pub u128);
 
 impl Coordinates {
+    #[allow(clippy::cast_possible_truncation)]
+    const MOST: u8 = Coordinate::MOST as u8;
+
     /// Just one.
     #[must_use]
     pub fn one(c: Coordinate) -> Self {
@@ -117,6 +131,11 @@ impl Coordinates {
     pub fn contains(self, c: Coordinate) -> bool {
         self.0 & (1 << (c.0 - 1)) != 0
     }
+    /// Whether one of them is in `other`.
+    #[must_use]
+    pub fn meets(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
     /// Whether there is none: a number.
     #[must_use]
     pub fn is_empty(self) -> bool {
@@ -124,7 +143,7 @@ impl Coordinates {
     }
     /// In ascending order.
     pub fn iter(self) -> impl Iterator<Item = Coordinate> {
-        (1..=16).map(Coordinate).filter(move |c| self.contains(*c))
+        (1..=Self::MOST).map(Coordinate).filter(move |c| self.contains(*c))
     }
 }
 
@@ -168,6 +187,12 @@ impl Graph {
     #[must_use]
     pub fn coordinates(&self, id: NodeId) -> Coordinates {
         self.coordinates[id.index()]
+    }
+
+    /// All nodes, by number.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
     }
 
     /// The value if the node is a number.

@@ -5,7 +5,9 @@ pub mod derivative;
 pub mod expand;
 pub mod facts;
 pub mod graph;
+pub mod region;
 
 pub use derivative::derivative;
 pub use facts::operations;
 pub use graph::{Coordinate, Coordinates, Graph, Node, NodeId, SharedLeaf};
+pub use region::{Form, Region, SharedRegion};

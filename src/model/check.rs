@@ -101,19 +101,24 @@ fn never_steps(condition: &Expr, body: &[Statement], span: Span) -> Option<Diagn
 
 fn type_form(subject: &str, span: Span, kind: &GeometricType) -> Option<Diagnostic> {
     let coordinate = super::environment::coordinate(subject).is_some();
-    if let GeometricType::Constant(None) | GeometricType::Group(None) | GeometricType::Center(None) = kind {
+    if let GeometricType::Constant(None)
+    | GeometricType::Group(None)
+    | GeometricType::Center(None)
+    | GeometricType::Color(None, _) = kind
+    {
         return Some(errors::type_without_value(subject, span, kind));
     }
     let fits = match kind {
         GeometricType::Constant(_) | GeometricType::Group(_) => true,
-        GeometricType::Center(_) => !coordinate,
+        GeometricType::Center(_) | GeometricType::Color(..) => !coordinate,
         _ => coordinate,
     };
     (!fits).then(|| {
         let title = if coordinate {
-            format!("`{subject}` is a coordinate, and CENTER belongs to an object")
+            let word = if matches!(kind, GeometricType::Color(..)) { "COLOR" } else { "CENTER" };
+            format!("`{subject}` is a coordinate, and {word} belongs to an object")
         } else {
-            format!("`{subject}` is no coordinate; an object's types are CONSTANT, G and CENTER")
+            format!("`{subject}` is no coordinate; an object's types are CONSTANT, G, CENTER and COLOR")
         };
         Diagnostic::error("bad-type", title).at(span, "")
     })

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
 use crate::field::{Coordinate, Coordinates, NodeId};
+use crate::source::Span;
 use crate::syntax::tree::{GeometricType, Name};
 
 /// What a coordinate shows.
@@ -98,6 +99,37 @@ pub struct Object {
     pub levels: Vec<f64>,
     /// `gob_a : CENTER = [0, 0, 0]`.
     pub center: Option<Vec<f64>>,
+    /// `gob_a : COLOR = [1, 0.5, 0]`.
+    pub colour: Option<Colour>,
+}
+
+/// The colour of an object, which may differ from point to point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Colour {
+    /// What it is made of.
+    pub of: Tint,
+    /// The statement that says it.
+    pub place: Span,
+}
+
+/// What a colour is made of, as nodes of the session's graph.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tint {
+    /// Red, green and blue, each 0 to 1.
+    Mix([NodeId; 3]),
+    /// A value that a palette shows, from the first of two numbers to the second.
+    Scale(NodeId, [f64; 2]),
+}
+
+impl Tint {
+    /// The nodes.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<NodeId> {
+        match self {
+            Self::Mix(mix) => mix.to_vec(),
+            Self::Scale(value, _) => vec![*value],
+        }
+    }
 }
 
 impl Object {
@@ -163,7 +195,7 @@ pub fn role(kind: &GeometricType, numbers: &[f64]) -> Option<Role> {
         GeometricType::C => Role::C,
         GeometricType::Constant(_) => Role::Constant(numbers.first().copied().unwrap_or(0.0)),
         GeometricType::Group(_) => Role::Group(numbers.to_vec()),
-        GeometricType::Center(_) => return None,
+        GeometricType::Center(_) | GeometricType::Color(..) => return None,
     })
 }
 

@@ -85,7 +85,7 @@ impl<'s> Input<'s> {
     pub(super) fn run(mut self, id: SourceId) -> (Outcome, Vec<super::state::Change>) {
         let mark = self.session.state.mark();
         let failing = self.session.failing.clone();
-        let parsed = syntax::parse(&self.session.sources, id, &self.session.limits, self.mode);
+        let parsed = self.parsed(id, self.mode);
         self.diagnostics.extend(parsed.diagnostics);
         let mut items = Vec::new();
         let mut files = self.file_of(id).into_iter().collect();
@@ -129,6 +129,11 @@ impl<'s> Input<'s> {
         let _ = self.lower_all(&[]);
         let mark = self.session.state.mark();
         self.session.state.accept(&mark);
+    }
+
+    fn parsed(&self, id: SourceId, mode: Mode) -> syntax::Parsed {
+        let _phase = self.session.interrupt.phase("parse");
+        syntax::parse(&self.session.sources, id, &self.session.limits, mode)
     }
 
     fn outcome(mut self, accepted: bool, events: Vec<Event>) -> Outcome {
@@ -203,7 +208,7 @@ impl<'s> Input<'s> {
             }
         };
         let id = self.session.sources.add(path.display().to_string(), text);
-        let parsed = syntax::parse(&self.session.sources, id, &self.session.limits, Mode::Script);
+        let parsed = self.parsed(id, Mode::Script);
         self.diagnostics.extend(parsed.diagnostics);
         files.push((identity, shown));
         items.push(Item::Enter);
@@ -318,7 +323,7 @@ impl<'s> Input<'s> {
             }
             StatementKind::Type { subject, kind } => {
                 let declared = Declared { kind: kind.clone(), definition: definition.clone() };
-                state.declare(subject.name.clone(), declared);
+                state.declare(&subject.name, declared);
                 state.push(Entry::Definition(definition.clone()));
                 state.add_stale(&definition);
             }
@@ -425,11 +430,15 @@ impl<'s> Input<'s> {
     }
 
     fn shown(&self, definition: &Definition, value: &Value, print: bool) -> Event {
-        let text = match &definition.statement.kind {
+        let object = match &definition.statement.kind {
             StatementKind::Expression(Expr { kind: ExprKind::Name(name), .. }) if name.starts_with("gob_") => {
-                self.session.describe(name)
+                Some(name.to_string())
             }
-            _ => value.show(&self.session.graph),
+            _ => None,
+        };
+        let text = match &object {
+            Some(name) => self.session.describe(name),
+            None => value.show(&self.session.graph),
         };
         if print {
             return Event::Printed(text);
@@ -438,11 +447,13 @@ impl<'s> Input<'s> {
             Value::Scalar(Scalar::Number(n)) => Some(*n),
             _ => None,
         };
-        Event::Value { text, number }
+        Event::Value { text, number, object }
     }
 
     /// Runs the evaluator and takes its warnings and its list of work.
     fn with_lower<T>(&mut self, f: impl FnOnce(&mut Lower<'_>) -> T) -> T {
+        let interrupt = self.session.interrupt.clone();
+        let _phase = interrupt.phase("lower");
         let session = &mut *self.session;
         let world = World {
             limits: &session.limits,

@@ -6,6 +6,8 @@ mod check;
 mod definition;
 pub mod environment;
 mod errors;
+mod explain;
+mod formula;
 mod input;
 mod lower;
 mod names;
@@ -19,5 +21,6 @@ mod state;
 pub mod value;
 
 pub use environment::{Axis, Object, Role};
+pub use formula::Formula;
 pub use session::{Deps, Event, Outcome, Session};
 pub use value::Value;

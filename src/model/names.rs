@@ -4,9 +4,7 @@ use rustc_hash::FxHashSet;
 
 use crate::builtins;
 use crate::source::Span;
-use crate::syntax::tree::{
-    Body, ChainOp, Expr, ExprKind, FoldOp, GeometricType, Mapping, Name, Statement, StatementKind,
-};
+use crate::syntax::tree::{Body, ChainOp, Expr, ExprKind, FoldOp, Mapping, Name, Statement, StatementKind};
 
 /// The name that holds the parameter of the R-functions.
 pub const R_ALPHA: &str = "r_alpha";
@@ -233,12 +231,7 @@ impl Walk {
                 self.within([index.name.clone()], |w| w.block(body));
             }
             StatementKind::Type { kind, .. } => {
-                if let GeometricType::Constant(Some(e))
-                | GeometricType::Group(Some(e))
-                | GeometricType::Center(Some(e)) = kind
-                {
-                    self.expr(e);
-                }
+                self.exprs(kind.expressions());
             }
             StatementKind::Print { items } => self.exprs(items),
             StatementKind::Expression(e) => self.expr(e),

@@ -2,12 +2,12 @@
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::Coordinate;
-use crate::syntax::tree::{GeometricType, Name};
+use crate::syntax::tree::Name;
 
-use super::environment::{self, Axis, Object, Role};
+use super::environment::{self, Axis, Colour, Object, Role, Tint};
 use super::errors;
 use super::session::Session;
-use super::state::{Entry, Kept};
+use super::state::{Declared, Entry, Kept};
 use super::value::{Scalar, Value};
 
 /// A value that can be asked for, or the messages that say why not.
@@ -42,17 +42,26 @@ impl Session {
             told.append(&mut errors);
             Default::default()
         });
+        let colour = self.colour(&name).unwrap_or_else(|mut errors| {
+            told.append(&mut errors);
+            None
+        });
         if !told.is_empty() {
             return Err(told);
         }
         let doc = self.doc(&name).unwrap_or_default().into();
-        Ok(Object { name, doc, node, uses, axes, levels, center })
+        Ok(Object { name, doc, node, uses, axes, levels, center, colour })
     }
 
     /// The names of all objects in the order of the text.
     #[must_use]
     pub fn objects(&self) -> Vec<String> {
         self.names().into_iter().filter(|n| n.starts_with("gob_")).collect()
+    }
+
+    /// The message about a name that nothing defines.
+    pub(super) fn unknown(&self, name: &str) -> Diagnostic {
+        errors::unknown_name(&self.state, name, &[], false, &Default::default())
     }
 
     fn last_object(&self) -> Option<Name> {
@@ -70,11 +79,11 @@ impl Session {
                 Diagnostic::error("not-an-object", format!("`{name}` is {}, not an object", other.kind()))
                     .help("an object is a function of the coordinates: `gob_ball = 1 - x1**2 - x2**2 - x3**2;`"),
             ]),
-            Some(Err(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(*told).clone() }]),
+            Some(Err(told)) => Err(vec![severe(&told)]),
             None if self.is_defined(name) => {
                 Err(vec![Diagnostic::error("never-assigned", format!("`{name}` has no value"))])
             }
-            None => Err(vec![errors::unknown_name(&self.state, name, &[], false, &Default::default())]),
+            None => Err(vec![self.unknown(name)]),
         }
     }
 
@@ -88,7 +97,7 @@ impl Session {
                 let place = self.state.get(name).map(|d| d.place());
                 Err(vec![place.into_iter().fold(told, |told, span| told.at(span, ""))])
             }
-            Some(Err(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(*told).clone() }]),
+            Some(Err(told)) => Err(vec![severe(&told)]),
         }
     }
 
@@ -128,26 +137,58 @@ impl Session {
         Ok(environment::role(&declared.kind, &numbers))
     }
 
-    /// The numbers behind a declared type.
+    /// The numbers behind the type that a coordinate or an object was declared with.
     fn type_numbers(&self, subject: &str) -> Asked<Vec<f64>> {
-        let Some(declared) = self.state.declared(subject) else { return Ok(Vec::new()) };
+        let value = self.state.declared(subject).map(|declared| self.type_value(declared));
+        Ok(value.transpose()?.flatten().map_or_else(Vec::new, |value| numbers(&value)))
+    }
+
+    /// What the expression of a declared type is worth.
+    fn type_value(&self, declared: &Declared) -> Asked<Option<Value>> {
         match self.state.kept(declared.definition.id) {
-            Some(Kept::One(value)) => Ok(numbers(value)),
-            Some(Kept::Failed(told)) => Err(vec![Diagnostic { severity: Severity::Error, ..(**told).clone() }]),
-            _ => Ok(Vec::new()),
+            Some(Kept::One(value)) => Ok(Some(value.clone())),
+            Some(Kept::Failed(told)) => Err(vec![severe(told)]),
+            _ => Ok(None),
         }
     }
 
     /// The levels of an object's boundary, and its centre.
     #[allow(clippy::type_complexity)]
     fn levels(&self, name: &str) -> Asked<(Vec<f64>, Option<Vec<f64>>)> {
-        let numbers = self.type_numbers(name)?;
-        Ok(match self.state.declared(name).map(|d| &d.kind) {
-            Some(GeometricType::Constant(_) | GeometricType::Group(_)) => (numbers, None),
-            Some(GeometricType::Center(_)) => (vec![0.0], Some(numbers)),
-            _ => (vec![0.0], None),
-        })
+        let levels = match self.state.declared(name) {
+            Some(_) => self.type_numbers(name)?,
+            None => vec![0.0],
+        };
+        let center = self.state.declared_center(name).map(|declared| self.type_value(declared)).transpose()?;
+        Ok((levels, center.flatten().map(|value| numbers(&value))))
     }
+
+    /// `gob_a : COLOR = ...`, as nodes of the graph.
+    fn colour(&mut self, name: &str) -> Asked<Option<Colour>> {
+        let Some(declared) = self.state.declared_colour(name).cloned() else { return Ok(None) };
+        let Some(Value::Array(array)) = self.type_value(&declared)? else { return Ok(None) };
+        let scalar = |value: &Value| if let Value::Scalar(scalar) = value { Some(*scalar) } else { None };
+        let mix = match array.items() {
+            [r, g, b] => [r, g, b].map(scalar),
+            [value, ..] => [scalar(value), None, None],
+            [] => return Ok(None),
+        };
+        let graph = &mut self.graph;
+        let mut node = |scalar: Option<Scalar>| scalar.map(|scalar| scalar.node(graph));
+        let whole = declared.definition.statement.span;
+        let place = declared.kind.expressions().next().map_or(whole, |e| e.span);
+        let of = match (mix.map(&mut node), array.items()) {
+            ([Some(r), Some(g), Some(b)], _) => Tint::Mix([r, g, b]),
+            ([Some(value), ..], [_, range]) => Tint::Scale(value, [0, 1].map(|k| numbers(range)[k])),
+            _ => return Ok(None),
+        };
+        Ok(Some(Colour { of, place }))
+    }
+}
+
+/// A message that was a note when it was found, as the error that it is for who asks.
+pub(super) fn severe(told: &Diagnostic) -> Diagnostic {
+    Diagnostic { severity: Severity::Error, ..told.clone() }
 }
 
 fn numbers(value: &Value) -> Vec<f64> {

@@ -1,12 +1,15 @@
 //! Questions about definitions: what depends on what, documentation, and the script that `:save` writes. Evaluates nothing.
 
 use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rustc_hash::FxHashSet;
 
 use crate::field::Coordinates;
+use crate::host::{Host, resolve, seen_from};
 use crate::source::SourceMap;
+use crate::syntax::scan::{Scanner, Token, TokenKind};
 use crate::syntax::tree::StatementKind;
 
 use super::definition::{Definition, DefinitionId, SystemInForce};
@@ -97,9 +100,45 @@ fn text(definition: &Definition, sources: &SourceMap) -> String {
     if text.ends_with(';') { text.to_owned() } else { format!("{text};") }
 }
 
+/// What a text needs when it moves to another file.
+pub struct Move<'a> {
+    /// The disk, for folders.
+    pub host: &'a dyn Host,
+    /// The folder of the new file; none is the current one.
+    pub folder: Option<&'a Path>,
+    /// The data files that were read.
+    pub known: &'a [PathBuf],
+    /// The folders of all texts, each once: a file that is handed to a function is looked for beside the function.
+    pub folders: &'a [PathBuf],
+}
+
+impl Move<'_> {
+    /// The statement of a definition with its data files named as seen from the new folder: those that were read, and what stands as the
+    /// file of an INTERPOLATE.
+    fn text(&self, definition: &Definition, sources: &SourceMap) -> String {
+        let text = text(definition, sources);
+        let own = sources.get(definition.statement.span.source).map(|source| PathBuf::from(&source.name));
+        let (mut moved, mut end) = (String::new(), 0);
+        let tokens: Vec<Token> = Scanner::new(&text, 0, text.len()).collect();
+        for (k, token) in tokens.iter().enumerate().filter(|(_, token)| token.kind == TokenKind::Text) {
+            let words = text[token.start..token.end].trim_matches('"');
+            let is_file = k >= 4 && tokens[k - 4].is_word(&text, "INTERPOLATE");
+            let path = resolve(own.as_deref(), Path::new(words));
+            let beside = self.folders.iter().map(|folder| folder.join(words));
+            let Some(path) = [path].into_iter().chain(beside).find(|path| is_file || self.known.contains(path)) else {
+                continue;
+            };
+            moved += &text[end..token.start];
+            let _ = write!(moved, "\"{}\"", seen_from(self.host, self.folder, &path).display());
+            end = token.end;
+        }
+        moved + &text[end..]
+    }
+}
+
 /// A script that defines the same again: the statements that still matter in their order, with their comments, and the system of
 /// R-functions where it changes.
-pub fn save(state: &State, sources: &SourceMap) -> String {
+pub fn save(state: &State, sources: &SourceMap, to: &Move<'_>) -> String {
     let live = state.live();
     let mut out = String::new();
     let mut wanted = SystemInForce::Plain;
@@ -117,22 +156,20 @@ pub fn save(state: &State, sources: &SourceMap) -> String {
             continue;
         }
         let type_stands = match &definition.statement.kind {
-            StatementKind::Type { subject, .. } => {
-                state.declared(&subject.name).is_some_and(|d| Arc::ptr_eq(&d.definition, definition))
-            }
+            StatementKind::Type { subject, kind } => state.declares(&subject.name, kind, definition),
             _ => live.contains(&definition.id),
         };
         if !type_stands {
             continue;
         }
         if definition.uses_system && !same(&wanted, &written) {
-            write_system(&mut out, &wanted, sources);
+            write_system(&mut out, &wanted, sources, to);
             written = wanted.clone();
         }
-        write_definition(&mut out, definition, sources);
+        write_definition(&mut out, definition, sources, to);
     }
     if !same(&wanted, &written) {
-        write_system(&mut out, &wanted, sources);
+        write_system(&mut out, &wanted, sources, to);
     }
     out
 }
@@ -150,7 +187,7 @@ fn same(a: &SystemInForce, b: &SystemInForce) -> bool {
 }
 
 /// Writes the statement that sets a system, and those above that its formula reads.
-fn write_system(out: &mut String, system: &SystemInForce, sources: &SourceMap) {
+fn write_system(out: &mut String, system: &SystemInForce, sources: &SourceMap, to: &Move<'_>) {
     let mut chain = Vec::new();
     let mut next = system;
     while let SystemInForce::Set(definition) = next {
@@ -163,10 +200,10 @@ fn write_system(out: &mut String, system: &SystemInForce, sources: &SourceMap) {
     if chain.last().is_none_or(|d| d.uses_system) {
         out.push_str("r_alpha = 0;\n");
     }
-    chain.iter().rev().for_each(|definition| write_definition(out, definition, sources));
+    chain.iter().rev().for_each(|definition| write_definition(out, definition, sources, to));
 }
 
-fn write_definition(out: &mut String, definition: &Definition, sources: &SourceMap) {
+fn write_definition(out: &mut String, definition: &Definition, sources: &SourceMap, to: &Move<'_>) {
     let doc = definition.statement.doc.trim();
     if !doc.is_empty() && !doc.contains('}') {
         let _ = writeln!(out, "{{ {doc} }}");
@@ -175,6 +212,6 @@ fn write_definition(out: &mut String, definition: &Definition, sources: &SourceM
             let _ = writeln!(out, "// {}", line.trim());
         });
     }
-    out.push_str(&text(definition, sources));
+    out.push_str(&to.text(definition, sources));
     out.push('\n');
 }

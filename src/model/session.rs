@@ -1,6 +1,7 @@
 //! A session: what was defined, and the answers to questions about it. Every front end works over this and computes nothing itself.
 
 use std::fmt;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rustc_hash::FxHashSet;
@@ -33,6 +34,8 @@ pub enum Event {
         text: String,
         /// The number.
         number: Option<f64>,
+        /// The name, if it is that of an object.
+        object: Option<String>,
     },
     /// What PRINT printed.
     Printed(String),
@@ -237,6 +240,17 @@ impl Session {
         Some(title)
     }
 
+    /// Forgets all definitions, as one step of the history: [`Session::undo`] brings them back.
+    pub fn reset(&mut self) {
+        let mark = self.state.mark();
+        self.state.clear();
+        let changes = self.state.accept(&mark);
+        self.failing.clear();
+        self.undo.push(Done { title: ":reset".into(), changes });
+        self.redo.clear();
+        self.settle();
+    }
+
     /// Does again what was taken back last.
     pub fn redo(&mut self) -> Option<String> {
         let mut done = self.redo.pop()?;
@@ -300,7 +314,7 @@ impl Session {
 
     /// The coordinates of both sides of each `@` that a definition is made with.
     #[must_use]
-    pub fn products(&self, name: &str) -> Vec<[Coordinates; 2]> {
+    pub fn cartesian(&self, name: &str) -> Vec<[Coordinates; 2]> {
         super::report::products(&self.state, name)
     }
 
@@ -310,10 +324,22 @@ impl Session {
         super::report::definition(&self.state, &self.sources, name)
     }
 
-    /// A script that defines the same again.
+    /// A script that defines the same again, for the current folder.
     #[must_use]
     pub fn save(&self) -> String {
-        super::report::save(&self.state, &self.sources)
+        self.save_in(None)
+    }
+
+    /// A script that defines the same again, for a file in `folder`: data files are named as seen from there.
+    #[must_use]
+    pub fn save_in(&self, folder: Option<&Path>) -> String {
+        let known: Vec<PathBuf> = self.files.known().map(|(_, path, _)| path).collect();
+        let folder_of = |name: &str| Path::new(name).parent().map(Path::to_path_buf).unwrap_or_default();
+        let mut folders: Vec<PathBuf> = self.sources.names().map(folder_of).collect();
+        folders.sort();
+        folders.dedup();
+        let to = super::report::Move { host: &*self.host, folder, known: &known, folders: &folders };
+        super::report::save(&self.state, &self.sources, &to)
     }
 
     /// One line about a defined name: `r1 = 4`, `gob_ball: object of x1, x2, x3`.

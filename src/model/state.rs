@@ -51,7 +51,7 @@ pub enum Change {
     Name(Name, Option<Arc<Definition>>),
     /// The system of R-functions in force at the end.
     System(SystemInForce),
-    /// The geometric type of a coordinate or an object.
+    /// A geometric type of a coordinate or an object, under its key.
     Type(Name, Option<Arc<Declared>>),
     /// Whether a name was set from outside and scripts do not change it.
     Pinned(Name, bool),
@@ -139,10 +139,28 @@ impl State {
         &self.system
     }
 
-    /// The declared type of a coordinate (`x4`) or an object.
+    /// The declared type of a coordinate (`x4`), or the level or levels of an object.
     #[must_use]
     pub fn declared(&self, subject: &str) -> Option<&Arc<Declared>> {
         self.types.get(subject)
+    }
+
+    /// The declared centre of an object.
+    #[must_use]
+    pub fn declared_center(&self, object: &str) -> Option<&Arc<Declared>> {
+        self.types.get(beside(object, CENTER).as_str())
+    }
+
+    /// The declared colour of an object.
+    #[must_use]
+    pub fn declared_colour(&self, object: &str) -> Option<&Arc<Declared>> {
+        self.types.get(beside(object, COLOUR).as_str())
+    }
+
+    /// Whether a statement is what declares that kind of type of the subject now.
+    #[must_use]
+    pub fn declares(&self, subject: &str, kind: &GeometricType, definition: &Arc<Definition>) -> bool {
+        self.types.get(&type_key(subject, kind)).is_some_and(|d| Arc::ptr_eq(&d.definition, definition))
     }
 
     /// Whether the name was set from outside.
@@ -225,14 +243,27 @@ impl State {
         self.apply(Change::System(system));
     }
 
-    /// Declares a geometric type.
-    pub fn declare(&mut self, subject: Name, declared: Declared) {
-        self.apply(Change::Type(subject, Some(Arc::new(declared))));
+    /// Declares a geometric type. An object's levels, centre and colour stand side by side.
+    pub fn declare(&mut self, subject: &str, declared: Declared) {
+        let key = type_key(subject, &declared.kind);
+        self.apply(Change::Type(key, Some(Arc::new(declared))));
     }
 
     /// Marks a name as set from outside.
     pub fn pin(&mut self, name: Name) {
         self.apply(Change::Pinned(name, true));
+    }
+
+    /// Forgets every definition, type and setting.
+    pub fn clear(&mut self) {
+        let names: Vec<Name> = self.names.keys().cloned().collect();
+        let types: Vec<Name> = self.types.keys().cloned().collect();
+        let pinned: Vec<Name> = self.pinned.iter().cloned().collect();
+        names.into_iter().for_each(|name| self.apply(Change::Name(name, None)));
+        types.into_iter().for_each(|subject| self.apply(Change::Type(subject, None)));
+        pinned.into_iter().for_each(|name| self.apply(Change::Pinned(name, false)));
+        self.set_system(SystemInForce::Plain);
+        self.apply(Change::Program(0, Vec::new()));
     }
 
     /// Keeps the result of a definition.
@@ -440,6 +471,23 @@ impl State {
         }
         live
     }
+}
+
+const CENTER: &str = "CENTER";
+const COLOUR: &str = "COLOR";
+
+/// Under which name a type is kept.
+fn type_key(subject: &str, kind: &GeometricType) -> Name {
+    match kind {
+        GeometricType::Center(_) => beside(subject, CENTER).into(),
+        GeometricType::Color(..) => beside(subject, COLOUR).into(),
+        _ => subject.into(),
+    }
+}
+
+/// A key that is no name.
+fn beside(subject: &str, word: &str) -> String {
+    format!("{subject} : {word}")
 }
 
 /// The beginning of an input.

@@ -1,6 +1,7 @@
 //! Numbers of all kinds: reals, intervals rounded outward, duals, blocks of points. One meaning, many numbers.
 
 pub mod dual;
+pub mod extremum;
 pub mod float;
 pub mod functions;
 pub mod interval;
@@ -8,6 +9,7 @@ pub mod leaf;
 pub mod op;
 pub mod real;
 pub mod rfunction;
+pub mod turns;
 
 pub use dual::{Dual, Duals};
 pub use float::Float;

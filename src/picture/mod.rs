@@ -17,6 +17,7 @@ pub mod graph;
 pub mod image;
 pub mod isolines;
 pub mod legend;
+pub mod paint;
 pub mod palette;
 pub mod plot;
 pub mod raycast;
@@ -29,4 +30,5 @@ pub mod text;
 
 pub use camera::{Camera, Projection, View};
 pub use image::Image;
+pub use paint::Paint;
 pub use palette::Palette;

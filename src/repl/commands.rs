@@ -8,7 +8,7 @@ use crate::host::{Disk, Host};
 use crate::model::request::{FORMATS, Kind, Output};
 use crate::{builtins, cli};
 
-use super::Repl;
+use super::{Repl, asks};
 
 /// One command.
 #[derive(Debug)]
@@ -33,6 +33,12 @@ pub enum Argument {
     Name,
     /// A file.
     File,
+    /// A name, then a file.
+    NameAndFile,
+    /// A file, then options with their values.
+    FileAndOptions,
+    /// An option without its dashes, then its value.
+    Option,
     /// A command.
     Command,
 }
@@ -56,21 +62,44 @@ pub static TABLE: &[Command] = &[
     command("list", "", "every definition in one line", Argument::None, list),
     command("doc", "NAME", "the documentation and the signature of NAME", Argument::Name, doc),
     command("deps", "NAME", "what NAME reads, and what reads NAME", Argument::Name, deps),
+    command("show", "[NAME]", "a small picture of an object, here", Argument::Name, asks::show),
+    command(
+        "explain",
+        "NAME",
+        "coordinates and types, bounds, route, R-functions in force, facts",
+        Argument::Name,
+        asks::explain,
+    ),
+    command(
+        "formula",
+        "NAME [FILE]",
+        "NAME as one expression, without other names; here or in a file",
+        Argument::NameAndFile,
+        asks::formula,
+    ),
     command("undo", "", "take back the last input", Argument::None, undo),
     command("redo", "", "take back the last :undo", Argument::None, redo),
+    command("reset", "", "forget all definitions; :undo brings them back", Argument::None, asks::reset),
     command("load", "FILE", "run a program here", Argument::File, load),
     command("save", "FILE", "write all definitions as a program that runs", Argument::File, save),
-    command("mesh", "FILE [OPTION...]", "write a mesh: .stl .obj .ply", Argument::File, mesh),
-    command("render", "FILE [OPTION...]", "write a picture or an animation: .png .gif", Argument::File, render),
+    command("mesh", "FILE [OPTION...]", "write a mesh: .stl .obj .ply .glb .3mf", Argument::FileAndOptions, mesh),
+    command(
+        "render",
+        "FILE [OPTION...]",
+        "write a picture, outlines or an animation: .png .svg .gif .apng",
+        Argument::FileAndOptions,
+        render,
+    ),
     command("measure", "[NAME]", "volume, area, centroid and more of an object", Argument::Name, measure),
     command(
         "set",
         "[OPTION VALUE]",
-        "keep an option for :mesh, :render and :measure, as in :set resolution 64",
-        Argument::None,
+        "keep an option for what follows, as in :set resolution 64; alone, show them",
+        Argument::Option,
         set,
     ),
     command("at", "[xN=VALUE]...", "look at a section; without a value, at the whole", Argument::None, at),
+    command("time", "", "how long the last input took, phase by phase", Argument::None, asks::time),
     command("recover", "", "run the inputs of a session that was killed", Argument::None, recover),
     command("quit", "", "leave", Argument::None, |_, _| Flow::Leave),
 ];
@@ -93,6 +122,12 @@ pub fn find(name: &str) -> Option<&'static Command> {
     }
     let mut starting = TABLE.iter().filter(|command| !name.is_empty() && command.name.starts_with(name));
     starting.next().filter(|_| starting.next().is_none())
+}
+
+/// The command that a line calls, if it starts with a colon.
+#[must_use]
+pub fn called(line: &str) -> Option<&'static Command> {
+    find(line.strip_prefix(':')?.split_whitespace().next()?)
 }
 
 /// Does what a line that starts with a colon says.
@@ -222,14 +257,16 @@ fn load(repl: &mut Repl, file: &str) -> Flow {
 }
 
 fn save(repl: &mut Repl, file: &str) -> Flow {
-    let (path, text) = (Path::new(unquoted(file)), repl.session.save());
+    let path = Path::new(unquoted(file));
+    let text = repl.session.save_in(path.parent());
     match Disk.write_whole(path, &mut |out| out.write_all(text.as_bytes())) {
         Ok(()) => repl.told(&format!("wrote {}", path.display())),
         Err(error) => Flow::Failed(repl.console.file_error(&error)),
     }
 }
 
-fn unquoted(file: &str) -> &str {
+/// A file name without the quotes around it.
+pub fn unquoted(file: &str) -> &str {
     file.strip_prefix('"').and_then(|file| file.strip_suffix('"')).unwrap_or(file)
 }
 
@@ -267,10 +304,7 @@ fn make_file(repl: &mut Repl, argument: &str, wanted: fn(Kind) -> bool, otherwis
 }
 
 fn measure(repl: &mut Repl, name: &str) -> Flow {
-    let mut making = repl.making.clone();
-    if !name.is_empty() {
-        making.subject.object = Some(name.to_owned());
-    }
+    let making = repl.looking_at(name);
     let made = cli::inspect::measure_one(&repl.console, &mut repl.session, &making, false);
     repl.ended(made)
 }
@@ -307,6 +341,7 @@ fn settings(making: &Making) -> String {
         "slices",
         making.look.slices.map(|slices| format!("x{}={}:{}:{}", slices.coordinate, slices.lo, slices.hi, slices.count)),
     );
+    say("images", making.display.images.map(|images| format!("{images:?}").to_lowercase()));
     say("frames", making.motion.frames.map(|n| n.to_string()));
     say("fps", making.motion.fps.map(|n| n.to_string()));
     for section in &making.subject.at {

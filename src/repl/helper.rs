@@ -10,6 +10,7 @@ use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{Context, Helper};
 
 use crate::builtins;
+use crate::cli::arguments::{option_names, option_values};
 use crate::host::{Disk, Host};
 use crate::limits::Limits;
 use crate::source::SourceMap;
@@ -121,11 +122,35 @@ impl Assistant {
 
     fn argument(&self, before: &str, command: &str) -> (usize, Vec<String>) {
         let start = before.rfind(char::is_whitespace).map_or(0, |i| i + 1);
+        let word = &before[start..];
+        let words: Vec<&str> = before[..start].split_whitespace().skip(1).collect();
         match commands::find(command).map(|command| command.completes) {
             Some(Argument::File) => files(before, start),
-            Some(Argument::Command) => (start, starting(commands::TABLE.iter().map(|c| c.name), &before[start..])),
+            Some(Argument::Command) => {
+                let (from, mut found) = self.word(before);
+                if from == start {
+                    found.splice(0..0, starting(commands::TABLE.iter().map(|c| c.name), word));
+                }
+                (from, found)
+            }
             Some(Argument::Name) => self.word(before),
-            _ => (before.len(), Vec::new()),
+            Some(Argument::NameAndFile) if words.is_empty() => self.word(before),
+            Some(Argument::NameAndFile) => files(before, start),
+            Some(Argument::FileAndOptions) => match words.last().and_then(|last| last.strip_prefix("--")) {
+                _ if word.starts_with('-') => {
+                    let typed = word.trim_start_matches('-');
+                    let names = options(typed).into_iter().map(|name| format!("--{name}"));
+                    (start, names.collect())
+                }
+                Some(option) => (start, values(option, word)),
+                None => files(before, start),
+            },
+            Some(Argument::Option) => match words[..] {
+                [] => (start, options(word)),
+                [option] => (start, values(option.trim_start_matches('-'), word)),
+                _ => (before.len(), Vec::new()),
+            },
+            Some(Argument::None) | None => (before.len(), Vec::new()),
         }
     }
 
@@ -150,6 +175,14 @@ fn width(text: &str) -> usize {
 
 fn starting<'a>(words: impl Iterator<Item = &'a str>, beginning: &str) -> Vec<String> {
     words.filter(|word| word.starts_with(beginning)).map(str::to_owned).collect()
+}
+
+fn options(beginning: &str) -> Vec<String> {
+    starting(option_names().iter().map(String::as_str), beginning)
+}
+
+fn values(option: &str, beginning: &str) -> Vec<String> {
+    starting(option_values(option).iter().map(String::as_str), beginning)
 }
 
 /// The place of a `"` that is not closed.
@@ -183,6 +216,15 @@ mod tests {
             (":help dep", "deps"),
             (":load src/rep", "repl/"),
             ("INCLUDE \"src/li", "lib.rs"),
+            (":set res", "resolution"),
+            (":set view to", "top"),
+            (":set images ki", "kitty"),
+            (":mesh a.stl --res", "--resolution"),
+            (":render a.png --palette mo", "mono"),
+            (":render src/re", "repl/"),
+            (":formula gob_", "gob_ball"),
+            (":formula gob_ball src/li", "lib.rs"),
+            (":help gob_", "gob_ball"),
         ] {
             let (start, found) = assistant.candidates(before);
             assert!(found.iter().any(|word| word == expected), "{before}: {found:?}");

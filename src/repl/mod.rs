@@ -1,5 +1,6 @@
 //! The prompt: reads inputs, gives them to the session, shows what comes back. Computes nothing.
 
+mod asks;
 pub mod commands;
 pub mod helper;
 pub mod history;
@@ -7,6 +8,7 @@ pub mod look;
 
 use std::io::{BufRead, IsTerminal, Read};
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use rustyline::error::ReadlineError;
 use rustyline::history::MemHistory;
@@ -16,11 +18,15 @@ use crate::cli::Prompt;
 use crate::cli::arguments::Making;
 use crate::cli::console::Console;
 use crate::cli::engine::Signals;
+use crate::cli::make::view;
 use crate::cli::run::tell;
 use crate::cli::sample::digits;
+use crate::cli::show;
 use crate::cli::status::Status;
 use crate::host::{FileError, Reason, reason, state_folder};
+use crate::interrupt::Costs;
 use crate::limits::Limits;
+use crate::model::request::headline;
 use crate::model::{Event, Session};
 use crate::syntax::Mode;
 use crate::syntax::scan::{Scanner, TokenKind};
@@ -41,6 +47,8 @@ pub struct Repl {
     inputs: usize,
     /// The last value, as an expression: what `_` stands for.
     last: Option<String>,
+    /// What the last input took.
+    costs: Option<(Duration, Costs)>,
     /// Comments that were typed as inputs of their own: they document what comes next.
     comments: String,
 }
@@ -50,8 +58,8 @@ pub fn start(prompt: Prompt) -> Status {
     let terminal = std::io::stdin().is_terminal();
     let memory = Memory::in_folder(if terminal { state_folder() } else { None });
     let Prompt { session, console, signals, making, .. } = prompt;
-    let repl =
-        Repl { session, console, signals, making, memory, lost: None, inputs: 0, last: None, comments: String::new() };
+    let (lost, last, costs, comments) = Default::default();
+    let repl = Repl { session, console, signals, making, memory, lost, inputs: 0, last, costs, comments };
     if terminal { repl.converse() } else { repl.listen() }
 }
 
@@ -152,9 +160,20 @@ impl Repl {
         }
     }
 
-    /// One input: a command, a question, or a piece of program.
+    /// One input, and what it costs.
     fn take(&mut self, input: &str) -> Flow {
         self.signals.interrupt.reset();
+        let begun = Instant::now();
+        let flow = self.answer(input);
+        let asks_for_time = commands::called(input.trim()).is_some_and(|command| command.name == "time");
+        if !input.trim().is_empty() && !asks_for_time {
+            self.costs = Some((begun.elapsed(), self.signals.interrupt.costs()));
+        }
+        flow
+    }
+
+    /// One input: a command, a question, or a piece of program.
+    fn answer(&mut self, input: &str) -> Flow {
         let trimmed = input.trim();
         let documented = std::mem::take(&mut self.comments) + input;
         let flow = match question(trimmed) {
@@ -183,17 +202,46 @@ impl Repl {
         let text = &self.with_last(text);
         let outcome = self.session.input(name, text, mode);
         if outcome.accepted
-            && let Some(Event::Value { text: shown, number }) = outcome.events.last()
+            && let Some(Event::Value { text: shown, number, .. }) = outcome.events.last()
         {
             self.last = Some(last_value(text, shown, *number));
         }
         let status = self.console.report(self.session.sources(), &outcome.diagnostics);
-        match tell(&self.console, &outcome.events, false) {
+        match self.told_events(&outcome.events, mode) {
             Ok(_) if outcome.accepted => Flow::Changed,
             Ok(_) => Flow::Failed(status),
             Err(Status::Done) => Flow::Leave,
             Err(failed) => Flow::Failed(failed),
         }
+    }
+
+    /// Tells what an input did; an object that was typed shows itself.
+    fn told_events(&mut self, events: &[Event], mode: Mode) -> Result<(), Status> {
+        for event in events {
+            match event {
+                Event::Value { object: Some(name), .. } if mode == Mode::Prompt => self.show_object(name)?,
+                other => tell(&self.console, std::slice::from_ref(other), false).map(drop)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn show_object(&mut self, name: &str) -> Result<(), Status> {
+        let making = self.looking_at(name);
+        match headline(&mut self.session, &view(&making)) {
+            Ok(line) => self.console.print(&line)?,
+            Err(_) => self.console.print(&self.session.describe(name))?,
+        }
+        show::glance(&self.console, &mut self.session, &making)
+    }
+
+    /// The options, with another object if one is named.
+    fn looking_at(&self, name: &str) -> Making {
+        let mut making = self.making.clone();
+        if !name.is_empty() {
+            making.subject.object = Some(name.to_owned());
+        }
+        making
     }
 
     /// The text with each `_` replaced by the last value.

@@ -50,7 +50,7 @@ pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
     let size = (0..2).map(|d| grid.hi[d] - grid.lo[d]).fold(0.0, f64::max);
     let estimate = |part: &dyn Fn(&Moments) -> f64, scale: f64| {
         let values = [0, 1, 2].map(|level| all.get(level).map(|(moments, ..)| part(moments)));
-        Estimate::from(values, is_smooth, 1e-13 * scale)
+        Estimate::from(values, is_smooth, 2e-10 * scale)
     };
     let count = |found: &Contour| (found.lines.len() as i64, found.euler());
     let (lines, euler) = count(&all[0].2);

@@ -105,7 +105,11 @@ fn extract_once(
     if shape.dimension != 3 || grid.dimension() != 3 {
         return Err(SurfaceError::Dimension(shape.dimension, 3));
     }
-    let mut bricks = Bricks::survey(shape, grid, limits, interrupt)?;
+    let mut bricks = {
+        let _phase = interrupt.phase("boxes");
+        Bricks::survey(shape, grid, limits, interrupt)?
+    };
+    let _phase = interrupt.phase("mesh");
     let samples = grid.counts().iter().map(|&n| n as u64).product();
     let mut report = Report {
         counters: std::mem::take(&mut bricks.counters),

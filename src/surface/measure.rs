@@ -85,7 +85,7 @@ pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
     let size = (0..3).map(|d| grid.hi[d] - grid.lo[d]).fold(0.0, f64::max);
     let estimate = |part: &dyn Fn(&Integrals) -> f64, scale: f64| {
         let values = [0, 1, 2].map(|level| levels.get(level).map(|level| part(&level.integrals)));
-        Estimate::from(values, fine.is_smooth, 1e-13 * scale)
+        Estimate::from(values, fine.is_smooth, 2e-10 * scale)
     };
     let Integrals { volume, area, .. } = fine.integrals;
     let mut report = fine.report.clone();
@@ -99,7 +99,7 @@ pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
         area: estimate(&|i| i.area, area),
         centroid: std::array::from_fn(|d| estimate(&|i| i.centroid[d], size)),
         inertia: std::array::from_fn(|r| std::array::from_fn(|c| estimate(&|i| i.inertia[r][c], volume * size * size))),
-        bounds: bounds(shape, grid, fine.extent, limits, interrupt)?,
+        bounds: if volume > 0.0 { bounds(shape, grid, limits, interrupt)? } else { None },
         topology: fine.topology,
         is_settled: levels.get(1).is_none_or(|half| shown(&half.topology) == shown(&fine.topology)),
         curvature: bends(0).zip(bends(1)).map(|(mean, gauss)| [mean, gauss]),
@@ -113,7 +113,6 @@ struct Level {
     bends: Option<[Sum; 2]>,
     topology: Topology,
     is_smooth: bool,
-    extent: Option<([f64; 3], [f64; 3])>,
     report: Report,
 }
 
@@ -123,7 +122,7 @@ impl Level {
         let topology = check(&mesh)?;
         let bends = curvature::of_mesh(shape, &mesh, own, grid.cell(), interrupt).map_err(SurfaceError::from)?;
         let is_smooth = own == mesh.triangles.len() && !has_creases(&mesh);
-        Ok(Self { integrals: Integrals::of(&mesh), bends, topology, is_smooth, extent: mesh.bounds(), report })
+        Ok(Self { integrals: Integrals::of(&mesh), bends, topology, is_smooth, report })
     }
 }
 
@@ -133,23 +132,18 @@ fn has_creases(mesh: &Mesh) -> bool {
     mesh.triangles.par_iter().any(|&[a, b, c]| turns(a, b) || turns(b, c) || turns(c, a))
 }
 
-/// How far the object reaches: between the vertices of its mesh or other points of it, and what intervals rule out.
+/// How far the object reaches: between points of it and what intervals rule out. The mesh does not tell: its vertices are kept apart.
 fn bounds(
     shape: &Shape,
     grid: &Grid,
-    extent: Option<([f64; 3], [f64; 3])>,
     limits: &Limits,
     interrupt: &Interrupt,
 ) -> Result<Option<[[Estimate; 2]; 3]>, MeasureError> {
-    let Some((least, largest)) = extent else { return Ok(None) };
     let space = (0..3).map(|d| (grid.lo[d], grid.hi[d]));
     let ranges: Vec<(f64, f64)> = space.chain(shape.fixed.iter().map(|&value| (value, value))).collect();
     let found = reach(Arc::clone(&shape.program), &ranges, REACH, limits.search_operations / 10, interrupt);
     let found = found.map_err(SurfaceError::from)?;
-    Ok(Some(std::array::from_fn(|d| {
-        let [[below, lo], [hi, above]] = found.as_ref().map_or([[least[d]; 2], [largest[d]; 2]], |found| found[d]);
-        [Estimate::between(below, lo.min(least[d])), Estimate::between(hi.max(largest[d]), above)]
-    })))
+    Ok(found.map(|found| std::array::from_fn(|d| found[d].map(|[one, other]| Estimate::between(one, other)))))
 }
 
 /// The integrals over the inside of one closed mesh.

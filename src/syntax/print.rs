@@ -200,10 +200,16 @@ impl Printer<'_> {
             GeometricType::Constant(e) => ("CONSTANT", e.as_ref()),
             GeometricType::Group(e) => ("G", e.as_ref()),
             GeometricType::Center(e) => ("CENTER", e.as_ref()),
+            GeometricType::Color(e, _) => ("COLOR", e.as_ref()),
         };
         self.writer.push(&format!("{subject} : {word}"));
         if let Some(value) = value {
             self.writer.keyed(" = ", value);
+        }
+        if let GeometricType::Color(_, Some(range)) = kind {
+            self.writer.keyed(" IN [", &range[0]);
+            self.writer.keyed(", ", &range[1]);
+            self.writer.push("]");
         }
     }
 
@@ -269,16 +275,9 @@ fn takes_else(statement: &Statement) -> bool {
         | StatementKind::Element { value: e, .. }
         | StatementKind::Expression(e) => open_if(e),
         StatementKind::Print { items } => items.last().is_some_and(open_if),
-        StatementKind::Type { kind, .. } => typed(kind).is_some_and(open_if),
+        StatementKind::Type { kind: GeometricType::Color(_, Some(_)), .. } => false,
+        StatementKind::Type { kind, .. } => kind.expressions().last().is_some_and(open_if),
         _ => false,
-    }
-}
-
-/// The expression of a geometric type that has one.
-fn typed(kind: &GeometricType) -> Option<&super::tree::Expr> {
-    match kind {
-        GeometricType::Constant(e) | GeometricType::Group(e) | GeometricType::Center(e) => e.as_ref(),
-        _ => None,
     }
 }
 

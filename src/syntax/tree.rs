@@ -233,6 +233,20 @@ pub enum GeometricType {
     Group(Option<Expr>),
     /// `CENTER = [..]`
     Center(Option<Expr>),
+    /// `COLOR = [r, g, b]`, `COLOR = e IN [lo, hi]`; also spelt COLOUR
+    Color(Option<Expr>, Option<Box<[Expr; 2]>>),
+}
+
+impl GeometricType {
+    /// The expressions behind it, in the order of the text.
+    pub fn expressions(&self) -> impl Iterator<Item = &Expr> {
+        let (value, range) = match self {
+            Self::Constant(value) | Self::Group(value) | Self::Center(value) => (value.as_ref(), None),
+            Self::Color(value, range) => (value.as_ref(), range.as_deref()),
+            _ => (None, None),
+        };
+        value.into_iter().chain(range.into_iter().flatten())
+    }
 }
 
 /// A statement with its place and documentation.

@@ -3,6 +3,7 @@
 
 use super::kernels::{Kind, Store, doubles, singles};
 use super::program::Program;
+use super::region::{Pointwise, RegionProgram, RegionStore};
 use crate::number::float::Float;
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
@@ -98,6 +99,19 @@ impl Kind for Doubles {
     fn leaf(leaf: &dyn Leaf, arguments: &[f64]) -> f64 {
         leaf.value(arguments)
     }
+
+    fn region(program: &RegionProgram, store: &mut RegionStore<Self>, lanes: usize) {
+        program.run(store, lanes);
+    }
+}
+
+impl Pointwise for Doubles {
+    fn number(item: Self::Item) -> f64 {
+        item
+    }
+    fn moving(value: f64, _: Self::Item, _: f64) -> Self::Item {
+        value
+    }
 }
 
 impl Kind for Singles {
@@ -145,6 +159,19 @@ impl Kind for Singles {
         at.iter_mut().zip(arguments).for_each(|(to, from)| *to = f64::from(*from));
         leaf.value(&at[..arguments.len()]) as f32
     }
+
+    fn region(program: &RegionProgram, store: &mut RegionStore<Self>, lanes: usize) {
+        program.run(store, lanes);
+    }
+}
+
+impl Pointwise for Singles {
+    fn number(item: Self::Item) -> f64 {
+        f64::from(item)
+    }
+    fn moving(value: f64, _: Self::Item, _: f64) -> Self::Item {
+        value as f32
+    }
 }
 
 /// Evaluates programs at points, a block at a time. Keep one per thread.
@@ -179,6 +206,7 @@ impl<T: Scalar> Points<T> {
                 let values = &values[block * size..][..out.len()];
                 self.store.input(input).as_mut()[..out.len()].copy_from_slice(values);
             }
+            self.store.live = out.len();
             // Whole vectors are computed; what the lanes beyond the last point hold is never read.
             T::Of::run(program, &mut self.store, out.len().next_multiple_of(16), &mut ());
             out.copy_from_slice(&self.store.result(program).as_ref()[..out.len()]);

@@ -2,13 +2,15 @@
 //! into the operations. Never changes a value under [`Demand::Value`], nor a sign under [`Demand::Sign`]. Never recurses.
 
 use std::fmt;
+use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
 use super::program::{Demand, Op, Program, Side, Value};
+use super::region::RegionProgram;
 use super::slots::SlotScratch;
-use crate::field::expand::{expand, reachable};
-use crate::field::{Coordinate, Graph, Node, NodeId, SharedLeaf};
+use crate::field::expand::{expand, reachable_all};
+use crate::field::{Coordinate, Coordinates, Graph, Node, NodeId, SharedLeaf, SharedRegion};
 use crate::limits::Limits;
 use crate::number::{Binary, Ternary, Unary};
 
@@ -45,41 +47,55 @@ impl Program {
         demand: Demand,
         limits: &Limits,
     ) -> Result<Self, CompileError> {
+        Self::compile_all(graph, &[root], inputs, demand, limits).map(|(program, _)| program)
+    }
+
+    /// The program for several values at once, and where it leaves them; its own value is the first.
+    pub(crate) fn compile_all(
+        graph: &Graph,
+        roots: &[NodeId],
+        inputs: &[Coordinate],
+        demand: Demand,
+        limits: &Limits,
+    ) -> Result<(Self, Vec<Value>), CompileError> {
         let limit = limits.program_operations;
-        if let Some(c) = graph.coordinates(root).iter().find(|c| !inputs.contains(c)) {
+        let used = roots.iter().fold(Coordinates::default(), |all, root| all.union(graph.coordinates(*root)));
+        if let Some(c) = used.iter().find(|c| !inputs.contains(c)) {
             return Err(CompileError::Unbound(c));
         }
-        let expanded = expand(graph, root, limit).map_err(|e| CompileError::TooLarge(e.limit))?;
-        let (graph, root) = expanded.as_ref().map_or((graph, root), |(g, r)| (g, *r));
-        let mut emitter = Emitter::new(graph, root, inputs, demand);
-        for node in order(graph, root, &emitter.reached) {
-            emitter.emit(node);
+        let expanded = expand(graph, roots, limit).map_err(|e| CompileError::TooLarge(e.limit))?;
+        let (graph, roots) = expanded.as_ref().map_or((graph, roots), |(graph, roots)| (graph, &roots[..]));
+        let mut emitter = Emitter::new(graph, roots, inputs, demand, limits);
+        for node in order(graph, roots, &emitter.reached) {
+            emitter.emit(node)?;
             if emitter.operations.len() > limit {
                 return Err(CompileError::TooLarge(limit));
             }
         }
-        let root = emitter.operand(root);
+        let values: Vec<Value> = roots.iter().map(|root| emitter.operand(*root)).collect();
         let mut slots = Vec::new();
-        let slot_count = SlotScratch::default().assign(inputs.len(), &emitter.operations, root, &mut slots);
-        Ok(Self {
+        let slot_count = SlotScratch::default().assign(inputs.len(), &emitter.operations, &values, &mut slots);
+        let program = Self {
             inputs: inputs.into(),
             leaves: emitter.leaves.into(),
+            regions: emitter.regions.into(),
             operations: emitter.operations,
             slots,
             slot_count,
-            root,
+            root: values[0],
             demand,
-        })
+        };
+        Ok((program, values))
     }
 }
 
-/// The nodes below `root` so that each comes after what it reads: of its operands the one that needs the most slots is computed
+/// The nodes below the roots so that each comes after what it reads: of its operands the one that needs the most slots is computed
 /// first (Sethi and Ullman), so that a chain keeps a value or two, whichever way it leans.
-fn order(graph: &Graph, root: NodeId, reached: &[bool]) -> Vec<NodeId> {
-    let need = needs(graph, root, reached);
-    let mut done = vec![false; root.index() + 1];
+fn order(graph: &Graph, roots: &[NodeId], reached: &[bool]) -> Vec<NodeId> {
+    let need = needs(graph, reached);
+    let mut done = vec![false; reached.len()];
     let mut ordered = Vec::new();
-    let mut open = vec![(root, false)];
+    let mut open: Vec<(NodeId, bool)> = roots.iter().rev().map(|root| (*root, false)).collect();
     let mut operands: Vec<NodeId> = Vec::new();
     while let Some((node, ready)) = open.pop() {
         if done[node.index()] {
@@ -102,9 +118,9 @@ fn order(graph: &Graph, root: NodeId, reached: &[bool]) -> Vec<NodeId> {
 }
 
 /// An estimate of the slots that each node takes, as if nothing were shared.
-fn needs(graph: &Graph, root: NodeId, reached: &[bool]) -> Vec<u32> {
-    let mut need = vec![0u32; root.index() + 1];
-    for index in (0..=root.index()).filter(|i| reached[*i]) {
+fn needs(graph: &Graph, reached: &[bool]) -> Vec<u32> {
+    let mut need = vec![0u32; reached.len()];
+    for index in (0..reached.len()).filter(|i| reached[*i]) {
         let node = graph.node(NodeId(index as u32));
         let mut operands = [0u32; 4];
         let mut count = 0;
@@ -138,12 +154,13 @@ mod wanted {
     }
 }
 
-/// What each node is wanted for, from the root down. Signs are passed on through set operations, complements and the branches of a
+/// What each node is wanted for, from the roots down. Signs are passed on through set operations, complements and the branches of a
 /// condition; everything else needs values.
-fn wants(graph: &Graph, root: NodeId, reached: &[bool], demand: Demand) -> Vec<u8> {
-    let mut wants = vec![0u8; root.index() + 1];
-    wants[root.index()] = if demand == Demand::Sign { wanted::INSIDE } else { wanted::VALUE };
-    for index in (0..=root.index()).rev().filter(|i| reached[*i]) {
+fn wants(graph: &Graph, roots: &[NodeId], reached: &[bool], demand: Demand) -> Vec<u8> {
+    let mut wants = vec![0u8; reached.len()];
+    let want = if demand == Demand::Sign { wanted::INSIDE } else { wanted::VALUE };
+    roots.iter().for_each(|root| wants[root.index()] = want);
+    for index in (0..reached.len()).rev().filter(|i| reached[*i]) {
         let want = wants[index];
         let node = graph.node(NodeId(index as u32));
         match node {
@@ -190,21 +207,37 @@ struct Emitter<'a> {
     operations: Vec<Op>,
     leaves: Vec<SharedLeaf>,
     leaf_numbers: FxHashMap<SharedLeaf, u32>,
+    limits: &'a Limits,
+    regions: Vec<Arc<RegionProgram>>,
+    /// Compiled regions, whatever their arguments.
+    compiled: FxHashMap<SharedRegion, Arc<RegionProgram>>,
+    /// The number of each region with its arguments, and its value.
+    running: FxHashMap<(SharedRegion, Arc<[NodeId]>), (u32, Value)>,
 }
 
 impl<'a> Emitter<'a> {
-    fn new(graph: &'a Graph, root: NodeId, inputs: &'a [Coordinate], demand: Demand) -> Self {
-        let reached = reachable(graph, root);
-        let wants = wants(graph, root, &reached, demand);
+    fn new(
+        graph: &'a Graph,
+        roots: &[NodeId],
+        inputs: &'a [Coordinate],
+        demand: Demand,
+        limits: &'a Limits,
+    ) -> Self {
+        let reached = reachable_all(graph, roots);
+        let wants = wants(graph, roots, &reached, demand);
         Self {
             graph,
             inputs,
             wants,
-            values: vec![0; root.index() + 1],
+            values: vec![0; reached.len()],
             reached,
             operations: Vec::new(),
             leaves: Vec::new(),
             leaf_numbers: FxHashMap::default(),
+            limits,
+            regions: Vec::new(),
+            compiled: FxHashMap::default(),
+            running: FxHashMap::default(),
         }
     }
 
@@ -221,21 +254,55 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn emit(&mut self, node: NodeId) {
+    fn emit(&mut self, node: NodeId) -> Result<(), CompileError> {
         let op = match self.graph.node(node) {
-            Node::Constant(_) => return,
+            Node::Constant(_) => return Ok(()),
             Node::Coordinate(c) => {
                 let position = self.inputs.iter().position(|i| i == c);
                 self.values[node.index()] = position.map_or(0, |p| p as Value);
-                return;
+                return Ok(());
             }
             Node::Unary(op, a) => Op::Unary(*op, self.operand(*a)),
             Node::Binary(op, a, b) => self.binary(*op, *a, *b, node),
             Node::Ternary(op, [a, b, c]) => self.ternary(*op, [*a, *b, *c], node),
             Node::Leaf(leaf, arguments) => self.leaf(leaf, arguments),
+            Node::Region(region, output, arguments) => {
+                let (number, value) = self.region(region, arguments)?;
+                if *output == 0 {
+                    self.values[node.index()] = value;
+                    return Ok(());
+                }
+                Op::Output(number, *output, value)
+            }
             Node::Map(..) => unreachable!("maps were expanded"),
         };
         self.values[node.index()] = self.push(op);
+        Ok(())
+    }
+
+    /// Runs a region with its arguments, once however many of its outputs are read: its number and its first output.
+    fn region(&mut self, region: &SharedRegion, arguments: &Arc<[NodeId]>) -> Result<(u32, Value), CompileError> {
+        if let Some(known) = self.running.get(&(region.clone(), arguments.clone())) {
+            return Ok(*known);
+        }
+        let program = match self.compiled.get(region) {
+            Some(program) => program.clone(),
+            None => {
+                let program = Arc::new(RegionProgram::compile(&region.0, self.limits)?);
+                self.compiled.insert(region.clone(), program.clone());
+                program
+            }
+        };
+        let number = self.regions.len() as u32;
+        self.regions.push(program);
+        let mut before = None;
+        for (place, argument) in (0u32..).zip(arguments.iter()) {
+            let argument = self.operand(*argument);
+            before = Some(self.push(Op::Give(number, place, argument, before.unwrap_or(argument))));
+        }
+        let value = self.push(Op::Region(number, before.unwrap_or(0)));
+        self.running.insert((region.clone(), arguments.clone()), (number, value));
+        Ok((number, value))
     }
 
     /// The question that is asked of a node of which only a sign matters.

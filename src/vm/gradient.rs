@@ -3,6 +3,7 @@
 
 use super::kernels::{Kind, Store, duals};
 use super::program::Program;
+use super::region::{Pointwise, RegionProgram, RegionStore};
 use crate::number::dual::Dual;
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
@@ -67,6 +68,19 @@ impl Kind for Duals {
     fn leaf(leaf: &dyn Leaf, arguments: &[Self::Item]) -> Self::Item {
         super::reference::leaf_dual(leaf, arguments)
     }
+
+    fn region(program: &RegionProgram, store: &mut RegionStore<Self>, lanes: usize) {
+        program.run(store, lanes);
+    }
+}
+
+impl Pointwise for Duals {
+    fn number(item: Self::Item) -> f64 {
+        item.value
+    }
+    fn moving(value: f64, with: Self::Item, by: f64) -> Self::Item {
+        Dual { value, slope: with.slope.map(|s| crate::number::dual::times(by, s)) }
+    }
 }
 
 /// Evaluates programs with derivatives. Keep one per thread.
@@ -128,6 +142,7 @@ impl Gradients {
                 slope.fill(if by.get(direction) == Some(&input) { 1.0 } else { 0.0 });
             }
         }
+        self.store.live = range.len();
         Duals::run(program, &mut self.store, range.len().next_multiple_of(8), &mut ());
     }
 }

@@ -3,6 +3,7 @@
 use super::choice::{Choices, watch};
 use super::kernels::{Kind, Operands, Store, ranges};
 use super::program::{Op, Program};
+use super::region::{RegionProgram, RegionStore};
 use super::specialise::Scratch;
 use crate::number::{Binary, Interval, Leaf, Ternary, Unary};
 
@@ -66,6 +67,13 @@ impl Kind for Ranges {
         leaf.bounds(arguments)
     }
 
+    fn region(program: &RegionProgram, store: &mut RegionStore<Self>, lanes: usize) {
+        program.run_ranges(store, lanes);
+    }
+    fn begin(choices: &mut Choices, operations: usize, lanes: usize) {
+        choices.begin(operations, lanes);
+    }
+
     #[inline(always)]
     fn watch(choices: &mut Choices, at: usize, op: &Op, operands: &Operands<'_, Self>, result: &IntervalBlock) {
         watch(choices, at, op, operands, result);
@@ -105,6 +113,7 @@ impl Boxes {
             let block = self.store.input(input);
             intervals.iter().enumerate().for_each(|(lane, interval)| Ranges::set(block, lane, *interval));
         }
+        self.store.live = out.len();
         Ranges::run(program, &mut self.store, out.len(), &mut self.choices);
         let result = self.store.result(program);
         out.iter_mut().enumerate().for_each(|(lane, interval)| *interval = Ranges::get(result, lane));

@@ -8,16 +8,17 @@
 use multiversion::multiversion;
 
 use super::program::{Op, Program, Value};
+use super::region::{RegionProgram, RegionStore};
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
 /// A kind of number to evaluate with, and how a block of them lies in memory.
-pub(crate) trait Kind {
+pub(crate) trait Kind: Sized {
     /// One number.
     type Item: Copy;
     /// [`Kind::LANES`] numbers, by component, aligned to a cache line.
     type Block: Default;
     /// What is told of each operation and its results.
-    type Watch;
+    type Watch: Default;
 
     /// Numbers in a block.
     const LANES: usize;
@@ -42,20 +43,29 @@ pub(crate) trait Kind {
     /// Runs a program on the first `lanes` lanes of the input blocks, with the best instructions that there are.
     fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut Self::Watch);
 
+    /// Runs a region on the first `lanes` lanes of the arguments that it was given.
+    fn region(program: &RegionProgram, store: &mut RegionStore<Self>, lanes: usize);
+
+    /// Called before a program of so many operations runs on so many lanes.
+    fn begin(_: &mut Self::Watch, _operations: usize, _lanes: usize) {}
+
     /// Called with each operation before its result takes its slot.
     #[inline(always)]
     fn watch(_: &mut Self::Watch, _at: usize, _op: &Op, _operands: &Operands<'_, Self>, _result: &Self::Block) {}
 }
 
 /// The blocks of an evaluator, kept from one call to the next.
-pub(crate) struct Store<K: Kind + ?Sized> {
+pub(crate) struct Store<K: Kind> {
     slots: Vec<Box<K::Block>>,
     spare: Box<K::Block>,
+    regions: Vec<RegionStore<K>>,
+    /// Lanes that are asked for, of those that are computed.
+    pub(crate) live: usize,
 }
 
 impl<K: Kind> Store<K> {
     pub(crate) fn new() -> Self {
-        Self { slots: Vec::new(), spare: Box::default() }
+        Self { slots: Vec::new(), spare: Box::default(), regions: Vec::new(), live: 0 }
     }
 
     /// Makes room for a program; allocates only for more slots than ever before.
@@ -63,11 +73,19 @@ impl<K: Kind> Store<K> {
         while self.slots.len() < program.slot_count() {
             self.slots.push(Box::default());
         }
+        while self.regions.len() < program.regions.len() {
+            self.regions.push(RegionStore::new());
+        }
     }
 
     /// The block of an input.
     pub(crate) fn input(&mut self, input: usize) -> &mut K::Block {
         &mut self.slots[input]
+    }
+
+    /// The block of any value that is kept to the end.
+    pub(crate) fn of(&self, program: &Program, value: Value) -> &K::Block {
+        &self.slots[program.slots[value as usize] as usize]
     }
 
     /// The block that holds the results once the program has run.
@@ -77,12 +95,12 @@ impl<K: Kind> Store<K> {
 }
 
 /// The blocks that operations read, by value.
-pub(crate) struct Operands<'a, K: Kind + ?Sized> {
+pub(crate) struct Operands<'a, K: Kind> {
     blocks: &'a [Box<K::Block>],
     slots: &'a [u32],
 }
 
-impl<'a, K: Kind + ?Sized> Operands<'a, K> {
+impl<'a, K: Kind> Operands<'a, K> {
     #[inline(always)]
     pub(crate) fn of(&self, value: Value) -> &'a K::Block {
         &self.blocks[self.slots[value as usize] as usize]
@@ -95,9 +113,45 @@ fn run<K: Kind>(program: &Program, store: &mut Store<K>, lanes: usize, watch: &m
     let results = &program.slots[program.inputs.len()..];
     for (at, (op, slot)) in program.operations.iter().zip(results).enumerate() {
         let operands = Operands { blocks: &store.slots, slots: &program.slots };
+        if let Op::Give(..) | Op::Region(..) | Op::Output(..) = op {
+            let live = store.live.min(lanes);
+            if !region::<K>(program, op, &operands, &mut store.regions, live, &mut store.spare) {
+                continue;
+            }
+            std::mem::swap(&mut store.spare, &mut store.slots[*slot as usize]);
+            continue;
+        }
         step::<K>(program, op, &operands, &mut store.spare, lanes);
         K::watch(watch, at, op, &operands, &store.spare);
         std::mem::swap(&mut store.spare, &mut store.slots[*slot as usize]);
+    }
+}
+
+/// The steps of a region: what it is given, what it does, what it puts out. Whether there is a result.
+fn region<K: Kind>(
+    program: &Program,
+    op: &Op,
+    operands: &Operands<'_, K>,
+    regions: &mut [RegionStore<K>],
+    live: usize,
+    out: &mut K::Block,
+) -> bool {
+    match *op {
+        Op::Give(region, place, value, _) => {
+            regions[region as usize].give(place as usize, operands.of(value), live);
+            false
+        }
+        Op::Region(region, _) => {
+            let region = region as usize;
+            K::region(&program.regions[region], &mut regions[region], live);
+            regions[region].put_out(0, out, live);
+            true
+        }
+        Op::Output(region, output, _) => {
+            regions[region as usize].put_out(output as usize, out, live);
+            true
+        }
+        _ => false,
     }
 }
 
@@ -149,6 +203,7 @@ fn step<K: Kind>(program: &Program, op: &Op, operands: &Operands<'_, K>, out: &m
         Op::Ternary(op, [a, b, c]) => ternary::<K>(op, [operands.of(a), operands.of(b), operands.of(c)], out, lanes),
         Op::Join(op, a, b, number) => join::<K>(op, operands.of(a), operands.of(b), number, out, lanes),
         Op::Extreme(op, _, a, b) => binary::<K>(op, operands.of(a), operands.of(b), out, lanes),
+        Op::Give(..) | Op::Region(..) | Op::Output(..) => debug_assert!(false, "regions run by themselves"),
         Op::Leaf(leaf, arity, arguments) => {
             let leaf = &*program.leaves[leaf as usize].0;
             for i in 0..lanes {

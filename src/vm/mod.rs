@@ -9,6 +9,7 @@ pub mod interval;
 mod kernels;
 pub mod program;
 pub mod reference;
+pub mod region;
 pub mod shape;
 mod slots;
 pub mod specialise;

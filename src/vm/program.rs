@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::region::RegionProgram;
 use crate::field::{Coordinate, SharedLeaf};
 use crate::number::{Binary, Ternary, Unary};
 
@@ -51,6 +52,13 @@ pub(crate) enum Op {
     Extreme(Binary, Side, Value, Value),
     /// Data: the leaf's number in the program, its arity, its arguments.
     Leaf(u32, u8, [Value; 4]),
+    /// Hands a region, by its number in the program, one of its arguments; the value behind it is that of the argument before, or the same
+    /// again. Its own value is not used but for the order.
+    Give(u32, u32, Value, Value),
+    /// Runs a region, whose last argument was that; its first output.
+    Region(u32, Value),
+    /// Another output of a region that has run.
+    Output(u32, u32, Value),
 }
 
 impl Op {
@@ -60,7 +68,11 @@ impl Op {
         match *self {
             Self::Constant(_) => {}
             Self::Unary(_, a) | Self::WithRight(_, a, _) | Self::WithLeft(_, _, a) => f(a),
-            Self::Binary(_, a, b) | Self::Join(_, a, b, _) | Self::Extreme(_, _, a, b) => {
+            Self::Region(_, a) | Self::Output(_, _, a) => f(a),
+            Self::Binary(_, a, b)
+            | Self::Join(_, a, b, _)
+            | Self::Extreme(_, _, a, b)
+            | Self::Give(_, _, a, b) => {
                 f(a);
                 f(b);
             }
@@ -80,6 +92,9 @@ impl Op {
             Self::Binary(op, a, b) => Self::Binary(op, f(a), f(b)),
             Self::Join(op, a, b, c) => Self::Join(op, f(a), f(b), c),
             Self::Extreme(op, side, a, b) => Self::Extreme(op, side, f(a), f(b)),
+            Self::Give(region, place, a, b) => Self::Give(region, place, f(a), f(b)),
+            Self::Region(region, a) => Self::Region(region, f(a)),
+            Self::Output(region, output, a) => Self::Output(region, output, f(a)),
             Self::Ternary(op, [a, b, c]) => Self::Ternary(op, [f(a), f(b), f(c)]),
             Self::Leaf(leaf, arity, mut arguments) => {
                 arguments[..usize::from(arity)].iter_mut().for_each(|a| *a = f(*a));
@@ -94,6 +109,8 @@ impl Op {
 pub struct Program {
     pub(crate) inputs: Arc<[Coordinate]>,
     pub(crate) leaves: Arc<[SharedLeaf]>,
+    /// The regions, one for each set of arguments.
+    pub(crate) regions: Arc<[Arc<RegionProgram>]>,
     /// In an order in which each comes after what it reads; none is superfluous.
     pub(crate) operations: Vec<Op>,
     /// The slot of each value, inputs included: a place in the evaluator's storage that later values use again.
@@ -110,6 +127,19 @@ impl Program {
     #[must_use]
     pub fn inputs(&self) -> &[Coordinate] {
         &self.inputs
+    }
+
+    /// Whether an operation is a loop or a search, so that a point takes much longer than the number of operations tells.
+    #[must_use]
+    pub fn has_regions(&self) -> bool {
+        !self.regions.is_empty()
+    }
+
+    /// What its loops and searches have cost until now, this program and those specialised from it taken together.
+    #[must_use]
+    pub fn region_counts(&self) -> super::region::Counts {
+        let counts = self.regions.iter().map(|region| region.counts());
+        counts.fold(super::region::Counts::default(), super::region::Counts::plus)
     }
 
     /// Number of operations.

@@ -15,13 +15,13 @@ const NEVER: u32 = u32::MAX;
 impl SlotScratch {
     /// Fills `slots` with the slot of each value; gives their number. The inputs keep the first slots for ever, so that a block
     /// of points is copied in once. A result may take the slot of an operand that is read there for the last time.
-    pub(crate) fn assign(&mut self, inputs: usize, operations: &[Op], root: Value, slots: &mut Vec<u32>) -> u32 {
+    pub(crate) fn assign(&mut self, inputs: usize, operations: &[Op], roots: &[Value], slots: &mut Vec<u32>) -> u32 {
         self.last_use.clear();
         self.last_use.resize(inputs + operations.len(), NEVER);
         for (at, op) in (0u32..).zip(operations) {
             op.for_each_operand(|v| self.last_use[v as usize] = at);
         }
-        self.last_use[root as usize] = NEVER;
+        roots.iter().for_each(|root| self.last_use[*root as usize] = NEVER);
         self.free.clear();
         slots.clear();
         slots.extend(0..inputs as u32);

@@ -84,10 +84,11 @@ impl Scratch {
         }
         let root = self.renumbered[program.root as usize];
         let mut slots = Vec::with_capacity(inputs + operations.len());
-        let slot_count = self.slots.assign(inputs, &operations, root, &mut slots);
+        let slot_count = self.slots.assign(inputs, &operations, &[root], &mut slots);
         Some(Program {
             inputs: program.inputs.clone(),
             leaves: program.leaves.clone(),
+            regions: program.regions.clone(),
             operations,
             slots,
             slot_count,

@@ -25,7 +25,7 @@ fn decode(name: &str, bytes: &[u8]) -> Result<Volume, DataError> {
 
 /// The shared files, or a note that a test could not run.
 #[allow(clippy::print_stderr)]
-fn shared() -> Option<PathBuf> {
+pub fn shared() -> Option<PathBuf> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data/volumes");
     if !folder.is_dir() {
         eprintln!("SKIPPED: {} is missing", folder.display());
@@ -39,7 +39,7 @@ fn read(name: &str) -> Option<Result<Volume, DataError>> {
     Some(decode(name, &bytes))
 }
 
-fn leaf(volume: Volume, kind: Interpolation) -> Arc<dyn Leaf> {
+pub fn leaf(volume: Volume, kind: Interpolation) -> Arc<dyn Leaf> {
     Arc::new(volume).leaf(kind).expect("finite samples")
 }
 
@@ -282,7 +282,7 @@ fn seeds_of_the_mutants_are_right() {
     }
 }
 
-fn gzip(bytes: &[u8]) -> Vec<u8> {
+pub fn gzip(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
     encoder.write_all(bytes).expect("memory");
     encoder.finish().expect("memory")

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use yont::export::Part;
 use yont::host::{Host, Memory};
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
@@ -20,7 +21,7 @@ fn folder() -> PathBuf {
 }
 
 /// The examples, by name, with their text.
-fn examples() -> Vec<(String, String)> {
+pub fn examples() -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = fs::read_dir(folder())
         .expect("a folder of examples")
         .map(|entry| entry.expect("readable").path())
@@ -40,7 +41,7 @@ fn teapot() -> Vec<u8> {
 }
 
 /// A session that has accepted the script, and where it writes.
-fn loaded(name: &str, text: &str) -> (Session, Arc<Memory>) {
+pub fn loaded(name: &str, text: &str) -> (Session, Arc<Memory>) {
     let host = Arc::new(Memory::with(&[("examples/data/teapot.nrrd", &teapot())]));
     let mut session = Session::new(host.clone(), Limits::default(), Interrupt::default());
     let outcome = session.input(&format!("examples/{name}"), text, Mode::Script);
@@ -132,7 +133,7 @@ fn the_nine_frames_of_the_metamorphosis_are_closed_and_share_one_program() {
         let topology = yont::surface::check::check(&mesh).unwrap_or_else(|fault| panic!("frame {n}: {fault}"));
         assert!(topology.triangles > 500, "frame {n}: {topology:?}");
         let mut bytes = Vec::new();
-        yont::export::stl::write(&mesh, &mut bytes).expect("memory");
+        yont::export::stl::write(&Part::of("gob_metamorp", &mesh), &mut bytes).expect("memory");
         assert!(bytes == files[n], "frame {n} is what the one program gives");
     }
 }
@@ -170,7 +171,7 @@ fn every_block_of_the_manual_runs_and_each_value_is_right() {
             .events
             .iter()
             .filter_map(|event| match event {
-                Event::Value { number, text } => Some(number.unwrap_or_else(|| panic!("line {line}: {text}"))),
+                Event::Value { number, text, .. } => Some(number.unwrap_or_else(|| panic!("line {line}: {text}"))),
                 _ => None,
             })
             .collect();

@@ -126,8 +126,13 @@ fn frames_that_do_not_fit_are_refused() {
 fn a_full_disk_stays_a_full_disk() {
     let image = gradient(300, 200, 1);
     let singles = vec![1.5; 1 << 16];
-    let field =
-        nrrd::Field { size: &[1 << 16], origin: &[0.0], spacing: &[1.0], samples: nrrd::Samples::Singles(&singles) };
+    let field = nrrd::Field {
+        name: "gob_a",
+        size: &[1 << 16],
+        origin: &[0.0],
+        spacing: &[1.0],
+        samples: nrrd::Samples::Singles(&singles),
+    };
     let errors = [
         png::write(&image, &mut Full(300)),
         gif::write(&[image], 0.1, &mut Full(1000)),
@@ -152,8 +157,13 @@ fn nrrd_reads_back_to_the_same_samples_in_the_same_place() {
     let bytes: Vec<u8> = (0..60).collect();
     for encoding in [nrrd::Encoding::Raw, nrrd::Encoding::Gzip] {
         for samples in [nrrd::Samples::Singles(&singles), nrrd::Samples::Bytes(&bytes)] {
-            let field =
-                nrrd::Field { size: &[5, 4, 3], origin: &[-1.0, 0.1, 2e-9], spacing: &[0.25, 1.0 / 3.0, 4.0], samples };
+            let field = nrrd::Field {
+                name: "gob_a",
+                size: &[5, 4, 3],
+                origin: &[-1.0, 0.1, 2e-9],
+                spacing: &[0.25, 1.0 / 3.0, 4.0],
+                samples,
+            };
             let text = written(|out| nrrd::write(&field, encoding, out));
             assert_eq!(text, written(|out| nrrd::write(&field, encoding, out)));
             let volume = read(&text);
@@ -165,8 +175,14 @@ fn nrrd_reads_back_to_the_same_samples_in_the_same_place() {
             assert_eq!(volume.placement.world([1.0, 1.0, 1.0]), [-0.75, 0.1 + 1.0 / 3.0, 4.000_000_002]);
         }
     }
-    let line = nrrd::Field { size: &[3], origin: &[1.0], spacing: &[2.0], samples: nrrd::Samples::Bytes(&[7, 8, 9]) };
+    let line = nrrd::Field {
+        name: "gob_a",
+        size: &[3],
+        origin: &[1.0],
+        spacing: &[2.0],
+        samples: nrrd::Samples::Bytes(&[7, 8, 9]),
+    };
     assert_eq!(read(&written(|out| nrrd::write(&line, nrrd::Encoding::Raw, out))).extent(), [(1.0, 5.0)]);
-    let wrong = nrrd::Field { size: &[4], ..line };
+    let wrong = nrrd::Field { name: "gob_a", size: &[4], ..line };
     assert!(nrrd::write(&wrong, nrrd::Encoding::Raw, &mut Vec::new()).is_err());
 }

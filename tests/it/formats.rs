@@ -3,7 +3,7 @@
 use super::solids::{Ex, shape_of};
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
-use yont::export::{apng, glb, svg, threemf};
+use yont::export::{Part, apng, glb, obj, ply, stl, svg, threemf};
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::picture::image::Image;
@@ -46,12 +46,16 @@ fn colours(mesh: &Mesh) -> Vec<[u8; 3]> {
     (0..mesh.positions.len()).map(|i| [(i % 7 * 40) as u8, (i % 3 * 90) as u8, 255 - (i % 5) as u8]).collect()
 }
 
+fn coloured<'a>(name: &'a str, mesh: &'a Mesh, colours: &'a [[u8; 3]]) -> Part<'a> {
+    Part { colours: Some(colours), ..Part::of(name, mesh) }
+}
+
 #[test]
 fn glb_holds_the_mesh() {
     let mesh = ball(3, 2.5, [1., -2., 3.]);
     let colours = colours(&mesh);
     let mut bytes = Vec::new();
-    glb::write(&mesh, Some(&colours), "gob_ball", &mut bytes).unwrap();
+    glb::write(&[coloured("gob_ball", &mesh, &colours)], "all", &mut bytes).unwrap();
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
     let scene = file.default_scene().unwrap();
     let turn = scene.nodes().next().unwrap();
@@ -88,7 +92,7 @@ fn glb_holds_the_mesh() {
 #[test]
 fn glb_shows_one_frame_at_a_time() {
     let meshes = [ball(1, 1., [0.; 3]), ball(2, 2., [0.; 3]), ball(0, 3., [0.; 3])];
-    let frames: Vec<glb::Part> = meshes.iter().map(glb::Part::of).collect();
+    let frames: Vec<Part> = meshes.iter().map(|mesh| Part::of("gob_a", mesh)).collect();
     let mut bytes = Vec::new();
     glb::write_animation(&frames, 0.5, "gob_a", &mut bytes).unwrap();
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
@@ -120,10 +124,10 @@ fn glb_shows_one_frame_at_a_time() {
 #[test]
 fn glb_groups_show_through() {
     let (inner, outer) = (ball(1, 1., [0.; 3]), ball(1, 2., [0.; 3]));
-    let glass = glb::Part { colour: [0, 188, 255, 51], ..glb::Part::of(&outer) };
-    let members = [("f = 1", glb::Part::of(&inner)), ("f = 0", glass), ("again", glass)];
+    let glass = Part { tint: [0, 188, 255, 51], ..Part::of("f = 0", &outer) };
+    let members = [Part::of("f = 1", &inner), glass, Part { name: "again", ..glass }];
     let mut bytes = Vec::new();
-    glb::write_group(&members, "gob_a", &mut bytes).unwrap();
+    glb::write(&members, "gob_a", &mut bytes).unwrap();
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
     let nodes: Vec<_> = file.nodes().filter(|n| n.mesh().is_some()).collect();
     assert_eq!(nodes.iter().map(|n| n.name().unwrap()).collect::<Vec<_>>(), ["f = 1", "f = 0", "again"]);
@@ -144,7 +148,8 @@ fn threemf_holds_the_mesh_its_colours_and_a_thumbnail() {
     let mut picture = Vec::new();
     apng::write(&[Image::new(16, 16, [9, 8, 7])], 1., &mut picture).unwrap();
     let mut bytes = Vec::new();
-    threemf::write(&mesh, Some(&colours), Some(&picture), "a <b> & \"c\"", &mut bytes).unwrap();
+    let name = "a <b> & \"c\"";
+    threemf::write(&[coloured(name, &mesh, &colours)], Some(&picture), name, &mut bytes).unwrap();
 
     let package =
         threemf2::package::ThreemfPackage::from_reader_with_memory_optimized_deserializer(Cursor::new(&bytes), true)
@@ -264,7 +269,7 @@ fn meshes_read_back_are_closed_and_measure_the_same() {
     let mesh = torus();
     let wanted = volume(&mesh);
     let mut bytes = Vec::new();
-    glb::write(&mesh, None, "a", &mut bytes).unwrap();
+    glb::write(&[Part::of("a", &mesh)], "a", &mut bytes).unwrap();
     let file = gltf::Gltf::from_slice(&bytes).unwrap();
     let reader = file.meshes().next().unwrap().primitives().next().unwrap();
     let reader = reader.reader(|_| file.blob.as_deref());
@@ -274,7 +279,7 @@ fn meshes_read_back_are_closed_and_measure_the_same() {
     let from_glb = Mesh { positions, normals: normals.clone(), triangles: corners.as_chunks::<3>().0.to_vec() };
 
     let mut bytes = Vec::new();
-    threemf::write(&mesh, None, None, "a", &mut bytes).unwrap();
+    threemf::write(&[Part::of("a", &mesh)], None, "a", &mut bytes).unwrap();
     let package =
         threemf2::package::ThreemfPackage::from_reader_with_memory_optimized_deserializer(Cursor::new(&bytes), true)
             .unwrap();
@@ -307,11 +312,15 @@ fn an_apng_has_as_many_frames_as_it_said() {
 fn writing_twice_gives_the_same_bytes() {
     let mesh = ball(2, 1., [0.; 3]);
     let colours = colours(&mesh);
+    let part = coloured("a", &mesh, &colours);
     let all = || {
-        let mut bytes = [Vec::new(), Vec::new(), Vec::new()];
-        glb::write(&mesh, Some(&colours), "a", &mut bytes[0]).unwrap();
-        threemf::write(&mesh, Some(&colours), Some(b"png"), "a", &mut bytes[1]).unwrap();
+        let mut bytes: [Vec<u8>; 6] = Default::default();
+        glb::write(&[part], "a", &mut bytes[0]).unwrap();
+        threemf::write(&[part], Some(b"png"), "a", &mut bytes[1]).unwrap();
         apng::write(&vec![Image::new(8, 8, [1, 2, 3]); 2], 9., &mut bytes[2]).unwrap();
+        obj::write(&[part], &mut bytes[3]).unwrap();
+        ply::write(&part, &mut bytes[4]).unwrap();
+        stl::write(&part, &mut bytes[5]).unwrap();
         bytes
     };
     assert_eq!(all(), all());
@@ -338,19 +347,32 @@ impl std::io::Write for Full {
 #[test]
 fn a_full_disk_is_an_error_wherever_it_strikes() {
     let mesh = ball(3, 1., [0.; 3]);
+    let part = Part::of("a", &mesh);
     let slice = svg::Slice { loops: vec![polygon(50, 1., [0.; 2])], ..Default::default() };
     let full = |result: std::io::Result<()>, what: &str, room: usize| {
         let kind = result.map_err(|error| error.kind());
         assert_eq!(kind, Err(std::io::ErrorKind::StorageFull), "{what}, {room} bytes");
     };
     for room in [0, 1, 11, 40, 300, 1000] {
-        full(glb::write(&mesh, None, "a", &mut Full(room)), "GLB", room);
-        full(threemf::write(&mesh, None, None, "a", &mut Full(room)), "3MF", room);
+        full(glb::write(&[part], "a", &mut Full(room)), "GLB", room);
+        full(threemf::write(&[part], None, "a", &mut Full(room)), "3MF", room);
+        full(obj::write(&[part], &mut Full(room)), "OBJ", room);
+        full(ply::write(&part, &mut Full(room)), "PLY", room);
+        full(stl::write(&part, &mut Full(room)), "STL", room);
         full(svg::write(std::slice::from_ref(&slice), [-1.; 2], [1.; 2], "a", &mut Full(room)), "SVG", room);
     }
     for room in [0, 1, 40, 90] {
         full(apng::write(&vec![Image::new(8, 8, [0; 3]); 2], 1., &mut Full(room)), "APNG", room);
     }
+}
+
+/// Every format of meshes refuses the parts; those that hold one, the last of them.
+fn refused(parts: &[Part], bytes: &mut Vec<u8>) {
+    assert!(glb::write(parts, "a", bytes).is_err());
+    assert!(threemf::write(parts, None, "a", bytes).is_err());
+    assert!(obj::write(parts, bytes).is_err());
+    let last = parts.last().unwrap();
+    assert!(ply::write(last, bytes).is_err() && stl::write(last, bytes).is_err());
 }
 
 #[test]
@@ -359,16 +381,19 @@ fn what_a_format_cannot_hold_is_refused_before_a_byte_is_written() {
     let bad = [
         Mesh::default(),
         Mesh { triangles: vec![[0, 1, 99]], ..good.clone() },
+        Mesh { normals: vec![[0., 0., 1.]], ..good.clone() },
         Mesh { positions: vec![[1e300, 0., 0.]; good.positions.len()], ..good.clone() },
     ];
     for mesh in &bad {
         let mut bytes = Vec::new();
-        assert!(glb::write(mesh, None, "a", &mut bytes).is_err());
-        assert!(threemf::write(mesh, None, None, "a", &mut bytes).is_err());
+        refused(&[Part::of("a", mesh)], &mut bytes);
+        refused(&[Part::of("a", &good), Part::of("b", mesh)], &mut bytes);
         assert!(bytes.is_empty());
     }
     let mut bytes = Vec::new();
-    assert!(glb::write(&good, Some(&[[0; 3]]), "a", &mut bytes).is_err(), "too few colours");
+    refused(&[coloured("a", &good, &[[0; 3]])], &mut bytes);
+    assert!(glb::write(&[], "a", &mut bytes).is_err() && obj::write(&[], &mut bytes).is_err(), "no mesh");
+    assert!(threemf::write(&[], None, "a", &mut bytes).is_err(), "no mesh");
     assert!(svg::write(&[svg::Slice::default()], [0.; 2], [1.; 2], "a", &mut bytes).is_err(), "no outline");
     let wild = svg::Slice { loops: vec![vec![[f64::NAN, 0.], [1., 1.]]], ..Default::default() };
     assert!(svg::write(&[wild], [0.; 2], [1.; 2], "a", &mut bytes).is_err(), "not finite");

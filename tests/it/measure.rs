@@ -56,7 +56,7 @@ fn estimates_hold_the_closed_forms() {
         let volume = measured(case, 64).volume;
         let error = (volume.value - case.volume.expect("known")).abs();
         assert!(error <= volume.error, "{name}: {error} above the estimate {}", volume.error);
-        assert!(volume.error < 2e-3 * volume.value, "{name}: the estimate {} says nothing", volume.error);
+        assert!(volume.error < 5e-3 * volume.value, "{name}: the estimate {} says nothing", volume.error);
     }
 }
 
@@ -260,7 +260,7 @@ fn scripts_measure_as_their_closed_forms_and_cost_as_their_surface() {
         assert!(errors[1].abs() < 0.003, "{name}: {} instead of {volume}", found[1].0);
         assert_eq!(found.map(|f| f.1), [euler; 2], "{name}");
         assert!(growth <= 4.6, "{name}: {found:?}");
-        assert!(!smooth || errors[1].abs() < 2e-6, "{name}: extrapolated, errors {errors:?}");
+        assert!(!smooth || errors[1].abs() < 2e-5, "{name}: extrapolated, errors {errors:?}");
     }
 }
 

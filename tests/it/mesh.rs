@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use yont::export::{obj, ply, stl};
+use yont::export::{Part, obj, ply, stl};
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::number::{Interval, Ternary};
@@ -113,7 +113,7 @@ fn compare_signs(name: &str, signs: &Shape, values: &Shape, grid: &Grid) {
 
 fn stl_bytes(mesh: &Mesh) -> Vec<u8> {
     let mut bytes = Vec::new();
-    stl::write(mesh, &mut bytes).expect("writing to memory");
+    stl::write(&Part::of("a", mesh), &mut bytes).expect("writing to memory");
     bytes
 }
 
@@ -124,7 +124,7 @@ fn the_number_of_threads_does_not_change_a_byte() {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             let Extraction { mesh, report, .. } = pool.install(|| case.extract(40));
             let mut text = Vec::new();
-            obj::write(&mesh, &mut text).expect("writing to memory");
+            obj::write(&[Part::of("a", &mesh)], &mut text).expect("writing to memory");
             (stl_bytes(&mesh), text, report)
         };
         let one = of(1);
@@ -156,8 +156,8 @@ fn stl_reads_back_as_the_same_closed_mesh() {
 fn obj_and_ply_hold_the_whole_mesh() {
     let mesh = KNOWN[0].extract(12).mesh;
     let (mut text, mut binary) = (Vec::new(), Vec::new());
-    obj::write(&mesh, &mut text).expect("writing to memory");
-    ply::write(&mesh, &mut binary).expect("writing to memory");
+    obj::write(&[Part::of("a", &mesh)], &mut text).expect("writing to memory");
+    ply::write(&Part::of("a", &mesh), &mut binary).expect("writing to memory");
     let text = String::from_utf8(text).expect("text");
     let read: Vec<[f64; 3]> = text
         .lines()

@@ -1,14 +1,21 @@
 //! Text to tree and back.
 
+#[path = "parser/derive.rs"]
+mod derive;
 #[path = "parser/dump.rs"]
 mod dump;
 #[path = "parser/generate.rs"]
 mod generate;
 
+use std::time::Instant;
+
+use rayon::prelude::*;
 use yont::limits::Limits;
 use yont::source::SourceMap;
 use yont::syntax::tree::{Body, ExprKind, Statement, StatementKind};
 use yont::syntax::{Mode, Parsed, parse, print};
+
+use crate::oracle::cases;
 
 /// Fig. 6 of the paper with its printing errors mended.
 const FIGURE: &str = include_str!("parser/figure.geo");
@@ -277,20 +284,72 @@ fn nothing_backtracks() {
     assert!(parsed(&format!("{blocks};"), Mode::Script).diagnostics.is_empty());
 }
 
+/// Prints the tree of a text without errors and reads it again, formats it once and twice.
+fn round_trip(text: &str, tree: &Parsed) {
+    let printed: String = tree.statements.iter().map(|s| print::statement(s) + "\n").collect();
+    let again = parsed(&printed, Mode::Script);
+    same(&undocumented(&again.statements), &undocumented(&tree.statements), &[text, &printed]);
+    let formatted = formatted(text);
+    let again = parsed(&formatted, Mode::Script);
+    same(&dump::statements(&again.statements), &dump::statements(&tree.statements), &[text, &formatted]);
+    same(&self::formatted(&formatted), &formatted, &[text]);
+}
+
+/// A seed for each number of a case.
+fn random(case: u64) -> generate::Random {
+    generate::Random(case.wrapping_mul(0x9E37_79B9_7F4A_7C15))
+}
+
+/// Shows a text that took longer than a second; whether that is too long depends on the machine.
+#[allow(clippy::print_stderr)]
+fn tell_if_slow(begun: Instant, text: &str) {
+    let seconds = begun.elapsed().as_secs_f64();
+    if seconds > 1.0 {
+        eprintln!("{seconds:.1} s for\n{text}\n");
+    }
+}
+
 #[test]
 fn random_programs_print_to_the_same_tree() {
-    for seed in 1..=10_000 {
-        let text = generate::program(&mut generate::Random(u64::wrapping_mul(seed, 0x9E37_79B9_7F4A_7C15)));
+    (1..=cases(10_000) as u64).into_par_iter().for_each(|case| {
+        let begun = Instant::now();
+        let text = generate::program(&mut random(case));
         let tree = parsed(&text, Mode::Script);
-        assert!(!tree.diagnostics.iter().any(|d| d.is_error()), "seed {seed}: {:?}\n{text}", tree.diagnostics);
-        let printed: String = tree.statements.iter().map(|s| print::statement(s) + "\n").collect();
-        let again = parsed(&printed, Mode::Script);
-        same(&undocumented(&again.statements), &undocumented(&tree.statements), &[&text, &printed]);
-        let formatted = formatted(&text);
-        let again = parsed(&formatted, Mode::Script);
-        same(&dump::statements(&again.statements), &dump::statements(&tree.statements), &[&text, &formatted]);
-        same(&self::formatted(&formatted), &formatted, &[&text]);
-    }
+        assert!(!tree.diagnostics.iter().any(|d| d.is_error()), "case {case}: {:?}\n{text}", tree.diagnostics);
+        round_trip(&text, &tree);
+        tell_if_slow(begun, &text);
+    });
+}
+
+/// Texts made from every part of the grammar: without a panic they are read to the same tree again, or refused with help.
+#[test]
+#[allow(clippy::print_stderr)]
+fn programs_derived_from_the_grammar_print_to_the_same_tree() {
+    let grammar = derive::Grammar::read();
+    let count = cases(6_000) as u64;
+    let one = |(mut seen, accepted): (derive::Seen, u64), case| {
+        let begun = Instant::now();
+        let text = grammar.program(&mut random(case), &mut seen);
+        let tree = parsed(&text, Mode::Script);
+        let mut errors = tree.diagnostics.iter().filter(|d| d.is_error()).peekable();
+        let right = errors.peek().is_none();
+        assert!(errors.all(|d| !d.help.is_empty()), "case {case}: {:?}\n{text}", tree.diagnostics);
+        if right {
+            round_trip(&text, &tree);
+        }
+        tell_if_slow(begun, &text);
+        (seen, accepted + u64::from(right))
+    };
+    let none = || (derive::Seen::new(), 0);
+    let (seen, accepted) = (1..=count).into_par_iter().fold(none, one).reduce(none, |mut a, b| {
+        a.0.extend(b.0);
+        (a.0, a.1 + b.1)
+    });
+    eprintln!("{accepted} of {count} derived programs are right");
+    assert!(3 * accepted > count, "{accepted} of {count} are right: hardly any is tried");
+    let unused: Vec<_> =
+        grammar.parts().into_iter().filter(|part| !seen.contains(&part.0)).map(|part| part.1).collect();
+    assert!(unused.is_empty(), "parts of the grammar that no program used: {unused:#?}");
 }
 
 /// Shows only the first line that differs, since trees are long.

@@ -53,11 +53,54 @@ pub(super) struct Header {
     origin: Option<Vec<f64>>,
     pub(super) line_skip: u64,
     pub(super) byte_skip: i64,
-    pub(super) data_file: Option<String>,
+    kinds: Option<Vec<String>>,
+    pub(super) data_files: Option<Files>,
+    /// Whether the lines that follow are names of files.
+    is_list: bool,
     /// Where the data begin.
     pub(super) end: usize,
     /// Lines of the header, the empty one included.
     pub(super) lines: usize,
+}
+
+/// Where a detached header says that the samples are.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Files {
+    /// In the files of these names, one after the other.
+    Named(Vec<String>),
+    /// In files whose names are numbered.
+    Series(Series),
+}
+
+/// `before`, a number of at least `width` digits (zeros before it), `after`; the numbers are `first`, `first + step` and so on.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Series {
+    before: String,
+    after: String,
+    width: usize,
+    first: i64,
+    step: i64,
+    count: u64,
+}
+
+impl Files {
+    pub(super) fn count(&self) -> u64 {
+        match self {
+            Self::Named(names) => names.len() as u64,
+            Self::Series(series) => series.count,
+        }
+    }
+
+    /// The name of file `n`, counted from 0.
+    pub(super) fn name(&self, n: u64) -> String {
+        match self {
+            Self::Named(names) => names.get(n as usize).cloned().unwrap_or_default(),
+            Self::Series(Series { before, after, width, first, step, .. }) => {
+                let number = first.saturating_add(step.saturating_mul(n as i64));
+                format!("{before}{number:0width$}{after}")
+            }
+        }
+    }
 }
 
 /// A header is text of a few lines; what goes on longer is none.
@@ -79,6 +122,8 @@ impl Header {
                 magic(line)?;
             } else if line.is_empty() {
                 break;
+            } else if let Some(Files::Named(names)) = header.data_files.as_mut().filter(|_| header.is_list) {
+                names.push(String::from_utf8_lossy(line).trim().to_owned());
             } else {
                 header.line(header.lines, line)?;
             }
@@ -144,7 +189,11 @@ impl Header {
                 self.byte_skip =
                     value.parse().ok().filter(|&n| n >= -1).ok_or_else(|| unknown("a number of bytes, or -1"))?;
             }
-            "data file" | "datafile" => self.data_file = Some(data_file(value)?),
+            "kinds" => self.kinds = Some(value.split_whitespace().map(str::to_owned).collect()),
+            "data file" | "datafile" => {
+                self.is_list = value.split_whitespace().next() == Some("LIST");
+                self.data_files = Some(if self.is_list { Files::Named(Vec::new()) } else { data_files(line, value)? });
+            }
             _ => {}
         }
         Ok(())
@@ -164,6 +213,7 @@ impl Header {
             self.dimension.ok_or(DataError::MissingField { field: "dimension", example: "dimension: 3" })?;
         let sizes =
             self.sizes.as_ref().ok_or(DataError::MissingField { field: "sizes", example: "sizes: 64 64 32" })?;
+        self.only_directions()?;
         if dimension == 0 || dimension > 3 {
             return Err(DataError::Dimensions { found: dimension });
         }
@@ -174,6 +224,7 @@ impl Header {
             ("axis maxs", self.maxs.as_ref().map(Vec::len)),
             ("centers", self.cell_centred.as_ref().map(Vec::len)),
             ("space directions", self.directions.as_ref().map(Vec::len)),
+            ("kinds", self.kinds.as_ref().map(Vec::len)),
         ];
         for (field, length) in lengths {
             if length.is_some_and(|length| length != dimension) {
@@ -182,6 +233,22 @@ impl Header {
             }
         }
         Ok((sizes.clone(), self.placement(dimension, sizes)?))
+    }
+
+    /// Refuses axes along which one does not move: components of colours and vectors, lists.
+    fn only_directions(&self) -> Result<(), DataError> {
+        let moves =
+            |kind: &str| ["domain", "space", "time", "none", "???"].iter().any(|k| kind.eq_ignore_ascii_case(k));
+        let kinds = self.kinds.iter().flatten().enumerate();
+        if let Some((axis, kind)) = kinds.into_iter().find(|(_, kind)| !moves(kind)) {
+            let kind = shown(kind.as_bytes());
+            let what = format!("axis {} of the grid holds the components of a {kind}", axis + 1);
+            return Err(DataError::Unsupported { what, help: ONE_COMPONENT.into() });
+        }
+        match self.directions.iter().flatten().position(Option::is_none) {
+            Some(axis) => Err(no_direction(axis)),
+            None => Ok(()),
+        }
     }
 
     fn placement(&self, dimension: usize, sizes: &[u64]) -> Result<Placement, DataError> {
@@ -237,9 +304,11 @@ fn blocks() -> DataError {
 fn no_direction(axis: usize) -> DataError {
     DataError::Unsupported {
         what: format!("axis {} of the grid is no direction of space", axis + 1),
-        help: "cut out one component (a colour, a moment) as a file of its own".into(),
+        help: ONE_COMPONENT.into(),
     }
 }
+
+const ONE_COMPONENT: &str = "cut out one component (a colour, a moment) as a file of its own";
 
 fn magic(line: &[u8]) -> Result<(), DataError> {
     match line.strip_prefix(b"NRRD000") {
@@ -252,17 +321,29 @@ fn magic(line: &[u8]) -> Result<(), DataError> {
     }
 }
 
-/// One file; lists and numbered series are refused.
-fn data_file(value: &str) -> Result<String, DataError> {
-    let words = value.split_whitespace().count();
-    let series = value.contains('%') && words >= 4;
-    if value.is_empty() || series || value.starts_with("LIST") {
-        return Err(DataError::Unsupported {
-            what: "the samples are spread over several files".into(),
-            help: "join them into one file".into(),
-        });
+/// One file, or a numbered series `pattern first last step`, perhaps with the number of axes of each file behind it, which the number of
+/// files tells as well.
+fn data_files(line: usize, value: &str) -> Result<Files, DataError> {
+    let words: Vec<&str> = value.split_whitespace().collect();
+    let bounds: Option<Vec<i64>> = words.iter().skip(1).map(|word| word.parse().ok()).collect();
+    match (bounds.as_deref(), words.first()) {
+        (Some([first, last, step] | [first, last, step, _]), Some(pattern)) if pattern.contains('%') => {
+            let unknown = || bad(line, format!("`{}` is not a series of files", shown(value.as_bytes())));
+            series(pattern, [*first, *last, *step]).map(Files::Series).ok_or_else(unknown)
+        }
+        (_, None) => Err(bad(line, "`data file` names no file")),
+        _ => Ok(Files::Named(vec![value.to_owned()])),
     }
-    Ok(value.to_owned())
+}
+
+/// A pattern with one `%d`, which may have a width: `slice%03d.raw`.
+fn series(pattern: &str, [first, last, step]: [i64; 3]) -> Option<Series> {
+    let (before, rest) = pattern.split_once('%')?;
+    let (width, after) = rest.split_once('d')?;
+    let width = if width.is_empty() { 0 } else { width.parse().ok().filter(|w| *w <= 64)? };
+    let steps = last.checked_sub(first)?.checked_div(step).filter(|steps| *steps >= 0)?;
+    let count = steps as u64 + 1;
+    Some(Series { before: before.to_owned(), after: after.to_owned(), width, first, step, count })
 }
 
 fn list<T>(value: &str, item: impl Fn(&str) -> Option<T>) -> Option<Vec<T>> {

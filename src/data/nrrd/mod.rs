@@ -1,8 +1,8 @@
 //! NRRD files, versions 1 to 5: attached and detached headers, raw, gzip, bzip2, text and hex data of every number type but blocks.
 //!
 //! Reads the geometry (`spacings`, `space directions`, `space origin`, `axis mins`), `line skip` and `byte skip` (-1 included); passes
-//! over comments, key/value pairs and fields that do not matter to a function. Refuses in words: more than three axes, series of
-//! files, sample types `block`. See <https://teem.sourceforge.net/nrrd/format.html>.
+//! over comments, key/value pairs and fields that do not matter to a function. The samples may lie in several files. Refuses in words:
+//! more than three axes, axes of components, sample types `block`. See <https://teem.sourceforge.net/nrrd/format.html>.
 
 mod header;
 
@@ -14,7 +14,7 @@ use super::error::DataError;
 use super::stream::{self, NumberType};
 use super::volume::{Samples, Volume};
 use super::{Context, Fetch};
-use header::{Encoding, Header};
+use header::{Encoding, Files, Header};
 
 /// The volume in an NRRD file, or in the file that its header names.
 ///
@@ -25,20 +25,44 @@ pub fn decode(name: &str, bytes: &[u8], fetch: Fetch<'_>, context: Context<'_>) 
     let header = Header::parse(bytes)?;
     let (size, placement) = header.grid()?;
     let count = stream::count(&size, header.kind()?, context)?;
-    let fetched;
-    let payload = match &header.data_file {
-        Some(file) => {
-            fetched = fetch(file).map_err(|error| DataError::Detached {
-                file: stream::shown(file.as_bytes()),
-                reason: error.to_string(),
-            })?;
-            &fetched[..]
-        }
-        None => &bytes[header.end..],
+    let samples = match &header.data_files {
+        Some(files) => gathered(&header, files, count, fetch, context)?,
+        None => samples(&header, &bytes[header.end..], count, context)?,
     };
-    let samples = samples(&header, payload, count, context)?;
     let size: Vec<usize> = size.iter().map(|&n| n as usize).collect();
     Volume::new(name, &size, placement, samples)
+}
+
+/// The samples of detached files, each of which holds as many of them.
+fn gathered(
+    header: &Header,
+    files: &Files,
+    count: usize,
+    fetch: Fetch<'_>,
+    context: Context<'_>,
+) -> Result<Samples, DataError> {
+    let number = files.count();
+    if number == 0 {
+        return Err(DataError::Header { line: header.lines, what: "`data file: LIST` lists no file".into() });
+    }
+    if count as u64 % number != 0 {
+        let what = format!("{count} numbers cannot lie in {number} files of one size");
+        return Err(DataError::Header { line: header.lines, what });
+    }
+    let each = (count as u64 / number) as usize;
+    let mut all: Option<Samples> = None;
+    for n in 0..number {
+        context.interrupt.tick()?;
+        let name = files.name(n);
+        let unread =
+            |error: io::Error| DataError::Detached { file: stream::shown(name.as_bytes()), reason: error.to_string() };
+        let next = samples(header, &fetch(&name).map_err(unread)?, each, context)?;
+        all = Some(match all {
+            Some(before) => before.followed_by(next),
+            None => next,
+        });
+    }
+    all.ok_or(DataError::NoValues)
 }
 
 fn samples(header: &Header, payload: &[u8], count: usize, context: Context<'_>) -> Result<Samples, DataError> {
@@ -82,7 +106,7 @@ fn text(
         let (promised, found) = (skip as u64, payload.len() as u64);
         return Err(DataError::TooFew { unit: "bytes to skip", promised, found });
     };
-    let before = if header.data_file.is_some() { 0 } else { header.lines };
+    let before = if header.data_files.is_some() { 0 } else { header.lines };
     stream::text_numbers(text, before + skipped + 1, kind, count, context)
 }
 

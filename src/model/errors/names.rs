@@ -212,6 +212,7 @@ pub fn type_without_value(subject: &str, span: Span, kind: &GeometricType) -> Di
     let (word, example) = match kind {
         GeometricType::Group(_) => ("G", "[0, 1, 2]"),
         GeometricType::Center(_) => ("CENTER", "[0, 0, 0]"),
+        GeometricType::Color(..) => ("COLOR", "[1, 0.5, 0]"),
         _ => ("CONSTANT", "0.5"),
     };
     Diagnostic::error("type-without-value", format!("{word} of `{subject}` has no value"))

@@ -2,7 +2,8 @@
 
 use crate::builtins::Builtin;
 use crate::diagnostic::Diagnostic;
-use crate::field::Coordinates;
+use crate::field::region::{DEPTH, Refused};
+use crate::field::{Coordinate, Coordinates};
 use crate::number::Binary;
 use crate::source::Span;
 use crate::syntax::tree::{ChainOp, FoldOp};
@@ -60,6 +61,41 @@ pub fn needs_numbers(place: &str, value: &Value, span: Span) -> Diagnostic {
         .help("write it like `[0, 1, 2]`")
 }
 
+/// A COLOR that is neither red, green and blue nor one value.
+pub fn bad_colour(value: &Value, span: Span) -> Diagnostic {
+    let found = match value {
+        Value::Array(a) if a.items().iter().all(|v| matches!(v, Value::Scalar(_))) => {
+            format!("an array of {}", a.items().len())
+        }
+        Value::Array(_) => "an array of arrays".to_owned(),
+        other => other.kind().to_owned(),
+    };
+    let title = format!("COLOR needs red, green and blue, or one value for the palette, not {found}");
+    Diagnostic::error("bad-colour", title)
+        .at(span, found)
+        .help("write red, green and blue from 0 to 1, `COLOR = [1, 0.5, 0]`")
+        .help("or a value and the range that the palette shows, `COLOR = x3 IN [-1, 1]`")
+}
+
+/// A part of a COLOR that is known to lie outside of 0 to 1.
+pub fn colour_outside(v: f64, span: Span) -> Diagnostic {
+    let help =
+        if v > 1.0 && v <= 255.0 { "divide by 255: `[r, g, b]/255`" } else { "write `COLOR = [1, 0.5, 0]`, say" };
+    Diagnostic::error(
+        "bad-colour",
+        format!("red, green and blue go from 0 to 1, and one of them is {}", value::number(v)),
+    )
+    .at(span, "")
+    .help(help)
+}
+
+/// A range behind red, green and blue.
+pub fn colour_with_range(span: Span) -> Diagnostic {
+    Diagnostic::error("bad-colour", "red, green and blue are shown as they are; a range belongs to one value")
+        .at(span, "")
+        .help("leave out `IN [...]`, or give one value: `COLOR = x3 IN [-1, 1]`")
+}
+
 /// Something that must be a text.
 pub fn needs_text(place: &str, value: &Value, span: Span) -> Diagnostic {
     Diagnostic::error("needs-text", format!("{place} must be a text in quotes, not {}", value.kind()))
@@ -67,7 +103,9 @@ pub fn needs_text(place: &str, value: &Value, span: Span) -> Diagnostic {
 }
 
 fn list(coordinates: Coordinates) -> String {
-    coordinates.iter().map(|c| c.to_string()).collect::<Vec<_>>().join(", ")
+    let named = coordinates.iter().filter(|c| usize::from(c.0) <= Coordinate::NAMED);
+    let names: Vec<String> = named.map(|c| c.to_string()).collect();
+    if names.is_empty() { "what DIFF varies".to_owned() } else { names.join(", ") }
 }
 
 /// A `gob_` is a number or a function of the coordinates.
@@ -309,9 +347,43 @@ pub fn bad_variable(span: Span) -> Diagnostic {
         .help("for example `DIFF(gob_a, x1)` or `DIFF(gob_a, r1)`")
 }
 
-/// All sixteen coordinates are in use.
-pub fn no_spare_coordinate(span: Span) -> Diagnostic {
-    Diagnostic::error("no-spare-coordinate", "DIFF by a name needs one of x1 to x16 to be unused").at(span, "")
+/// Derivatives and loops within each other, too many levels deep.
+pub fn too_many_variables(span: Span) -> Diagnostic {
+    Diagnostic::error("too-many-variables", "loops and derivatives are nested too deep here").at(span, "")
+}
+
+/// The second argument of PROJECT.
+pub fn project_needs_coordinate(span: Span) -> Diagnostic {
+    Diagnostic::error("bad-variable", "the second argument of PROJECT is a coordinate")
+        .at(span, "")
+        .help("for example `PROJECT(gob_a, x4, 0, 1)`")
+}
+
+/// A bound of PROJECT that depends on what is projected away.
+pub fn bound_depends(over: Coordinate, span: Span) -> Diagnostic {
+    Diagnostic::error("bound-depends", format!("a bound of PROJECT cannot depend on {over}, which it projects away"))
+        .at(span, format!("depends on {over}"))
+        .help("bounds may depend on parameters and on the other coordinates")
+}
+
+/// A section without end.
+pub fn endless_section(span: Span) -> Diagnostic {
+    Diagnostic::error("endless", "a bound of PROJECT must be a finite number").at(span, "")
+}
+
+/// An offset without end.
+pub fn endless_offset(span: Span) -> Diagnostic {
+    Diagnostic::error("endless", "the distance of OFFSET_BALL must be a finite number").at(span, "")
+}
+
+/// A search that cannot be made part of the graph.
+pub fn refused_search(name: &str, why: Refused, span: Span) -> Diagnostic {
+    let title = match why {
+        Refused::TooLarge(limit) => format!("what {name} searches takes more than {limit} operations"),
+        Refused::TooMany => format!("what {name} searches reads too many values that do not change with it"),
+        Refused::TooDeep => format!("searches and loops lie within each other more than {DEPTH} levels deep"),
+    };
+    Diagnostic::error("search-too-large", title).at(span, "").help("make it of fewer or simpler parts")
 }
 
 /// A built-in that needs coordinates.

@@ -24,6 +24,11 @@ pub struct Files {
 }
 
 impl Files {
+    /// What was read: the fingerprint of each leaf, its file and its kind of interpolation.
+    pub fn known(&self) -> impl Iterator<Item = (u128, PathBuf, String)> {
+        self.leaves.iter().map(|((path, kind), leaf)| (leaf.fingerprint(), path.clone(), kind.clone()))
+    }
+
     /// Forgets what was read, so that changed files are read again.
     pub fn clear(&mut self) {
         self.leaves.clear();

@@ -113,6 +113,8 @@ impl Lower<'_> {
             Special::Random => return self.random(builtin, arguments),
             Special::Diff => return self.diff(&arguments[0], &arguments[1]),
             Special::Grad => return self.grad(&arguments[0], span),
+            Special::Project => return self.project(arguments, span),
+            Special::OffsetBall => return self.offset_ball(arguments, span),
             Special::Interpolate => return self.interpolate(builtin, arguments, span),
         };
         self.fold_array(op, builtin, &arguments[0], span)
@@ -141,8 +143,8 @@ impl Lower<'_> {
 
     fn grad(&mut self, e: &Expr, span: Span) -> Lowered<Value> {
         let value = self.scalar(e, "the argument of GRAD")?;
-        let highest =
-            value.coordinates(self.graph).iter().last().ok_or_else(|| errors::no_coordinates("GRAD", e.span))?;
+        let named = value.coordinates(self.graph).iter().filter(|c| usize::from(c.0) <= Coordinate::NAMED).last();
+        let highest = named.ok_or_else(|| errors::no_coordinates("GRAD", e.span))?;
         let mut items = Vec::new();
         for c in 1..=highest.0 {
             items.push(self.slope(&Value::Scalar(value), Coordinate(c), e.span)?);
@@ -154,29 +156,31 @@ impl Lower<'_> {
     fn diff_by_name(&mut self, e: &Expr, name: &Name, span: Span) -> Lowered<Value> {
         let value = self.name(name, span)?;
         let value = self.as_scalar(&value, span, "the variable of DIFF")?;
-        let spare = self.spare_coordinate(span)?;
+        let Some(spare) = self.variables.checked_add(1).filter(|c| usize::from(*c) <= Coordinate::MOST) else {
+            return Err(errors::too_many_variables(span).into());
+        };
+        self.variables = spare;
+        let slope = self.diff_by_stand_in(e, name, Coordinate(spare));
+        self.variables = spare - 1;
+        let slope = slope?;
+        let back = value.node(self.graph);
+        self.each(&slope, span, &mut |lower, s| match s {
+            Scalar::Number(_) => Ok(s),
+            Scalar::Node(id) => {
+                let id = lower.graph.map(id, &[(Coordinate(spare), back)]);
+                Ok(lower.wrap(id))
+            }
+        })
+    }
+
+    fn diff_by_stand_in(&mut self, e: &Expr, name: &Name, spare: Coordinate) -> Lowered<Value> {
         let stand_in = self.coordinate(spare.0);
         let result = if self.locals[self.frame..].iter().any(|l| l.name == *name) {
             self.let_in(name, stand_in, |lower| lower.expr(e))?
         } else {
             self.with_definition_as(name, stand_in, e)?
         };
-        let slope = self.slope(&result, spare, e.span)?;
-        let back = value.node(self.graph);
-        self.each(&slope, span, &mut |lower, s| match s {
-            Scalar::Number(_) => Ok(s),
-            Scalar::Node(id) => {
-                let id = lower.graph.map(id, &[(spare, back)]);
-                Ok(lower.wrap(id))
-            }
-        })
-    }
-
-    /// A coordinate that no text of the session names.
-    fn spare_coordinate(&self, span: Span) -> Lowered<Coordinate> {
-        let used = self.state.coordinates_named();
-        let spare = (1..=16).rev().find(|c| used & (1 << (c - 1)) == 0);
-        spare.map(Coordinate).ok_or_else(|| errors::no_spare_coordinate(span).into())
+        self.slope(&result, spare, e.span)
     }
 
     /// The value of `e` if a definition had another value; everything is as before afterwards.

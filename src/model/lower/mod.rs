@@ -8,8 +8,10 @@ mod arrays;
 mod call;
 mod data;
 mod expr;
+mod extremum;
 mod fold;
 mod operators;
+mod repeat;
 mod statement;
 
 use std::sync::Arc;
@@ -17,12 +19,12 @@ use std::sync::Arc;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Category, Diagnostic};
-use crate::field::{Graph, NodeId};
+use crate::field::{Coordinate, Graph, NodeId};
 use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::source::{SourceMap, Span};
-use crate::syntax::tree::{Body, Name, Statement, StatementKind};
+use crate::syntax::tree::{Body, Expr, Name, Statement, StatementKind};
 
 use super::definition::{Definition, DefinitionId, SystemInForce};
 use super::errors;
@@ -132,6 +134,8 @@ pub struct Lower<'a> {
     pub turns: usize,
     depth: usize,
     calls: usize,
+    /// The last coordinate that stands for something that no text can name, where the evaluation stands.
+    variables: u8,
 }
 
 impl<'a> Lower<'a> {
@@ -153,6 +157,7 @@ impl<'a> Lower<'a> {
             turns: 0,
             depth: 0,
             calls: 0,
+            variables: Coordinate::NAMED as u8,
         }
     }
 
@@ -231,6 +236,20 @@ impl<'a> Lower<'a> {
             Err(Fault::Follows(told)) => Ok(Kept::Failed(told)),
             Err(Fault::Cancelled) => Err(Fault::Cancelled),
         }
+    }
+
+    /// The value of an expression of a definition, in the system of R-functions and over the names that the definition sees; nothing if
+    /// it fails, as where it stands on names of its own.
+    pub fn part(&mut self, definition: &Arc<Definition>, e: &Expr) -> Option<Value> {
+        self.active = Active::InForce(definition.system.clone());
+        self.current = Some(definition.clone());
+        for (name, base) in &definition.bases {
+            let slot = base.as_ref().map_or(Slot::Unset, |base| self.base(base, name));
+            self.locals.push(Local { name: name.clone(), slot });
+        }
+        let value = self.expr(e).ok();
+        self.locals.clear();
+        value
     }
 
     fn formula(&mut self, definition: &Arc<Definition>) -> Lowered<Kept> {

@@ -1,5 +1,7 @@
 //! Statements inside bodies, loops and branches: run over local names. A loop whose condition is a number is unrolled; one whose
-//! condition depends on a coordinate is run at each point, by choosing turn after turn.
+//! condition depends on a coordinate becomes a loop that runs at each point, or, where its body needs numbers, a choice after each turn.
+
+use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
@@ -7,10 +9,10 @@ use crate::syntax::tree::{Body, Expr, GeometricType, Ident, Name, Range, Stateme
 
 use super::super::errors;
 use super::super::names;
-use super::super::value::{Active, Scalar, Value};
+use super::super::value::{Active, Array, Scalar, Value};
 use super::{Fault, Lower, Lowered, Slot, system_of};
 
-/// Turns of a loop that is run at each point, before it is refused.
+/// Turns of a loop that depends on a coordinate and is unrolled all the same, before it is refused.
 const POINT_TURNS: usize = 10_000;
 
 impl Lower<'_> {
@@ -96,6 +98,9 @@ impl Lower<'_> {
                 Scalar::Number(value) if !is_true(value) => break,
                 Scalar::Number(_) => {}
                 Scalar::Node(id) => {
+                    if undecided.is_empty() && self.at_each_point(condition, body, &names)? {
+                        return Ok(());
+                    }
                     if undecided.len() >= POINT_TURNS {
                         let coordinates = self.graph.coordinates(id);
                         return Err(errors::unbounded_loop(coordinates, POINT_TURNS, condition.span).into());
@@ -136,12 +141,12 @@ impl Lower<'_> {
         Ok(())
     }
 
-    fn slots(&self, names: &[Name]) -> Vec<Slot> {
+    pub(super) fn slots(&self, names: &[Name]) -> Vec<Slot> {
         let find = |name: &Name| self.locals[self.frame..].iter().rev().find(|l| l.name == *name);
         names.iter().map(|name| find(name).map_or(Slot::Unset, |l| l.slot.clone())).collect()
     }
 
-    fn put_slots(&mut self, names: &[Name], slots: Vec<Slot>) {
+    pub(super) fn put_slots(&mut self, names: &[Name], slots: Vec<Slot>) {
         let frame = self.frame;
         for (name, slot) in names.iter().zip(slots) {
             if let Some(local) = self.locals[frame..].iter_mut().rev().find(|l| l.name == *name) {
@@ -195,8 +200,12 @@ impl Lower<'_> {
         }
     }
 
-    /// The value behind a geometric type: a number, an array of numbers, or 0 where there is none.
+    /// The value behind a geometric type: a number, an array of numbers, or 0 where there is none; of a colour what
+    /// [`Lower::colour`] makes.
     pub(super) fn type_value(&mut self, kind: &GeometricType) -> Lowered<Value> {
+        if let GeometricType::Color(Some(e), range) = kind {
+            return self.colour(e, range.as_deref());
+        }
         let (GeometricType::Constant(e) | GeometricType::Group(e) | GeometricType::Center(e)) = kind else {
             return Ok(Value::number(0.0));
         };
@@ -209,6 +218,35 @@ impl Lower<'_> {
             _ => false,
         };
         if fits { Ok(value) } else { Err(Fault::from(bad_type_value(kind, &value, e.span))) }
+    }
+
+    /// The value of COLOR: three scalars, or a scalar and the array of the range over which a palette shows it.
+    fn colour(&mut self, e: &Expr, range: Option<&[Expr; 2]>) -> Lowered<Value> {
+        let value = self.expr(e)?;
+        let is_scalar = |v: &Value| matches!(v, Value::Scalar(_));
+        let shown = match &value {
+            Value::Array(a) if a.items().len() == 3 && a.items().iter().all(is_scalar) => {
+                let part = |v: &Value| if let Value::Scalar(Scalar::Number(v)) = v { Some(*v) } else { None };
+                if let Some(v) = a.items().iter().filter_map(part).find(|v| !(-1e-9..=1.0 + 1e-9).contains(v)) {
+                    return Err(errors::colour_outside(v, e.span).into());
+                }
+                let Some([lo, hi]) = range else { return Ok(value) };
+                return Err(errors::colour_with_range(lo.span.to(hi.span)).into());
+            }
+            Value::Array(a) if a.items().len() == 1 && is_scalar(&a.items()[0]) => a.items()[0].clone(),
+            Value::Scalar(_) => value,
+            _ => return Err(errors::bad_colour(&value, e.span).into()),
+        };
+        let (mut lo, mut hi) = (0.0, 1.0);
+        if let Some([from, to]) = range {
+            lo = self.number(from, "the range of a COLOR")?;
+            hi = self.number(to, "the range of a COLOR")?;
+            if lo == hi || !(hi - lo).is_finite() {
+                return Err(errors::empty_range(lo, hi, from.span.to(to.span)).into());
+            }
+        }
+        let range = Value::Array(Arc::new(Array::new(vec![Value::number(lo), Value::number(hi)])));
+        Ok(Value::Array(Arc::new(Array::new(vec![shown, range]))))
     }
 }
 

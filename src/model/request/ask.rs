@@ -65,6 +65,7 @@ fn measure_subject(session: &Session, view: &View, subject: &Subject) -> Result<
         );
     }
     notes.extend(told::first_moment(subject));
+    let _phase = interrupt.phase("measure");
     let (of, resolution) = if let [axis] = subject.axes[..] {
         let line = intervals(&shape, axis.range, interrupt)?;
         if line.intervals.is_empty() {
@@ -167,6 +168,7 @@ pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Asked<Sub
         return Err(told);
     }
     subject.span = session.place(&object.name);
+    subject.colouring = object.colour.clone();
     subject.precision = view.precision;
     space::settle(session, &mut subject, &object).map_err(|told| vec![told])?;
     Ok(subject)

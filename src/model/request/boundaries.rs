@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::time::Instant;
 
 use crate::diagnostic::{Category, Diagnostic};
-use crate::export::{self, glb, svg};
+use crate::export::{self, Part, glb, svg};
 use crate::picture::legend::Telling;
 use crate::picture::palette::Palette;
 use crate::surface::check::{Topology, check};
@@ -36,7 +36,10 @@ impl Making<'_> {
         let shown = self.subject.shown_by("such a mesh", if is_glb { &["G", "C", "levels"] } else { &[] });
         shown.map_err(|told| if is_glb { told } else { told.help("a .glb holds a group; a .png shows a sheet") })?;
         let grid = self.subject.grid(self.options.view.cells, self.shop.limits)?;
-        let members = self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?;
+        let members = {
+            let _phase = self.shop.interrupt.phase("compile");
+            self.subject.members(self.shop.graph, Demand::Sign, self.shop.limits)?
+        };
         if members.len() > 1 {
             return self.groups(&grid, &members);
         }
@@ -68,7 +71,7 @@ impl Making<'_> {
         let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
         self.line(0, &format!("{} frames, {triangles} triangles", meshes.len()), begun);
         let (delay, name) = (self.delay(), self.subject.name.clone());
-        let parts: Vec<glb::Part> = meshes.iter().map(glb::Part::of).collect();
+        let parts: Vec<Part> = meshes.iter().map(|mesh| Part::of(&name, mesh)).collect();
         self.put(0, &mut |out| glb::write_animation(&parts, delay, &name, &mut { out }))
     }
 
@@ -93,16 +96,14 @@ impl Making<'_> {
                 (member.label.clone(), opacity, [*r, *g, *b], mesh.clone())
             };
             let owned: Vec<_> = meshes.iter().map(part).collect();
-            let parts: Vec<(&str, glb::Part)> = owned
+            let parts: Vec<Part> = owned
                 .iter()
-                .map(|(label, opacity, [r, g, b], mesh)| {
-                    (label.as_str(), glb::Part { colour: [*r, *g, *b, *opacity], ..glb::Part::of(mesh) })
-                })
+                .map(|(label, opacity, [r, g, b], mesh)| Part { tint: [*r, *g, *b, *opacity], ..Part::of(label, mesh) })
                 .collect();
             let triangles: usize = owned.iter().map(|part| part.3.triangles.len()).sum();
             self.line(n, &format!("a group of {count} with {triangles} triangles"), begun);
             let name = self.subject.name.clone();
-            self.put(n, &mut |out| glb::write_group(&parts, &name, &mut { out }))?;
+            self.put(n, &mut |out| glb::write(&parts, &name, &mut { out }))?;
         }
         Ok(())
     }
@@ -223,11 +224,12 @@ fn write_mesh(
     thumbnail: Option<&[u8]>,
     mut out: &mut dyn Write,
 ) -> io::Result<()> {
+    let part = Part::of(name, mesh);
     match format {
-        Format::Obj => export::obj::write(mesh, &mut out),
-        Format::Ply => export::ply::write(mesh, &mut out),
-        Format::Glb => glb::write(mesh, None, name, &mut out),
-        Format::ThreeMf => export::threemf::write(mesh, None, thumbnail, name, &mut out),
-        _ => export::stl::write(mesh, &mut out),
+        Format::Obj => export::obj::write(&[part], &mut out),
+        Format::Ply => export::ply::write(&part, &mut out),
+        Format::Glb => glb::write(&[part], name, &mut out),
+        Format::ThreeMf => export::threemf::write(&[part], thumbnail, name, &mut out),
+        _ => export::stl::write(&part, &mut out),
     }
 }

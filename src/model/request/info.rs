@@ -45,7 +45,7 @@ pub fn info(session: &mut Session, name: Option<&str>) -> Result<Vec<Info>, Vec<
 fn of(session: &mut Session, name: &str) -> Result<Info, Vec<Diagnostic>> {
     let object = session.object(Some(name))?;
     let operations = crate::field::operations(&session.graph, object.node);
-    let products = session.products(name);
+    let products = session.cartesian(name);
     let (mut found, mut told) = (Vec::new(), Vec::new());
     let view = View { object: Some(name.to_owned()), ..View::default() };
     match subject(session, &view, &Timing::default()) {
@@ -152,7 +152,8 @@ fn shared(a: Coordinates, b: Coordinates) -> Coordinates {
 }
 
 /// A type in the words of the language.
-pub(super) fn role(role: &Role) -> String {
+#[must_use]
+pub fn role(role: &Role) -> String {
     match role {
         Role::X => "X".into(),
         Role::Y => "Y".into(),

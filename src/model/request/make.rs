@@ -164,6 +164,7 @@ impl Making<'_> {
             let size: Vec<String> = field.size.iter().map(ToString::to_string).collect();
             self.line(n, &format!("{} samples", size.join(" x ")), begun);
             let written = export::nrrd::Field {
+                name: &self.subject.name,
                 size: &field.size,
                 origin: &field.origin,
                 spacing: &field.spacing,
@@ -175,6 +176,7 @@ impl Making<'_> {
     }
 
     fn shape(&self, demand: Demand) -> Result<Shape, Diagnostic> {
+        let _phase = self.shop.interrupt.phase("compile");
         self.subject.shape(self.shop.graph, demand, self.shop.limits)
     }
 
@@ -233,6 +235,7 @@ impl Making<'_> {
             Target::File(path) => path.clone(),
             Target::Series { before, after } => numbered(before, after, n, self.subject.moments().len()),
         };
+        let _phase = self.shop.interrupt.phase("write");
         self.shop.host.write_whole(Path::new(&path), content).map_err(|error| error.diagnostic())?;
         self.written.files.push(path);
         Ok(())
@@ -258,6 +261,8 @@ impl Making<'_> {
     }
 
     pub(super) fn undefined(&mut self, counters: &Counters) {
+        self.shop.interrupt.count("points", counters.points);
+        self.shop.interrupt.count("boxes", counters.boxes);
         self.say(told::undefined(self.subject, counters));
     }
 }

@@ -49,6 +49,7 @@ impl<'a> Artist<'a> {
         options: &Options,
         moments: &[f64],
     ) -> Result<Self, Diagnostic> {
+        let _phase = shop.interrupt.phase("compile");
         let picture = &options.picture;
         let palette = Palette::from_name(&picture.palette).ok_or_else(|| {
             let names: Vec<&str> = Palette::NAMES.iter().map(|(name, _)| *name).collect();
@@ -86,6 +87,7 @@ impl<'a> Artist<'a> {
     /// # Errors
     /// If the work was stopped, or the sheet is too large.
     pub fn picture(&self, moment: f64, interrupt: &Interrupt) -> Result<Picture, Diagnostic> {
+        let _phase = interrupt.phase("picture");
         let subject = self.subject;
         let time = subject.time.as_ref().map(|time| format!("{} = {}", time.coordinate, number(moment)));
         if subject.columns.is_none() && subject.rows.is_none() {

@@ -11,6 +11,7 @@ use crate::vm::Demand;
 
 use super::make::cancelled;
 use super::subject::{Axis, Sequence, Subject};
+use super::told::SIGN;
 
 /// Searches that a session remembers.
 const REMEMBERED: usize = 64;
@@ -136,7 +137,8 @@ fn endless(subject: &Subject, ends: &[(usize, bool)]) -> Diagnostic {
     let told = Diagnostic::error("endless-object", title)
         .help(format!("add to the script: {}", lines.join(" ")))
         .help(format!("or on the command line: --bounds {}", options.join(",")));
-    here(told, subject)
+    let all = ends.len() == 2 * subject.axes.len();
+    here(if all { told.help(SIGN) } else { told }, subject)
 }
 
 /// An object that is a point at most.
@@ -162,9 +164,7 @@ fn nowhere(subject: &Subject, is_proved: bool, best: Option<(f64, Vec<f64>)>) ->
     if let Some((value, place)) = &best {
         told = told.fact(format!("the largest value found is {} at {}", short(*value), at(subject, place)));
     }
-    let told =
-        told.help("inside is where the function is >= 0: if it is written with inside negative, put `-` before it");
-    here(told.category(Category::Result), subject)
+    here(told.help(SIGN).category(Category::Result), subject)
 }
 
 /// A place in words: `x1 = 0.5, x2 = 1`.

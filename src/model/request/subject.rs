@@ -4,6 +4,7 @@
 use crate::diagnostic::{Category, Diagnostic};
 use crate::field::{Coordinate, Graph, NodeId};
 use crate::limits::Limits;
+use crate::model::environment::Colour;
 use crate::picture::axes::number;
 use crate::source::Span;
 use crate::surface::grid::{Grid, GridError, MOST_CELLS};
@@ -84,6 +85,8 @@ pub struct Subject {
     pub precision: Precision,
     /// What there is to say of the modelling space, if it was found and not given.
     pub notes: Vec<Diagnostic>,
+    /// The colour that the program gives it.
+    pub colouring: Option<Colour>,
 }
 
 impl Subject {
@@ -105,6 +108,7 @@ impl Subject {
             levels,
             precision: Precision::Double,
             notes: Vec::new(),
+            colouring: None,
         }
     }
 

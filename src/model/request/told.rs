@@ -11,7 +11,8 @@ use super::space::{at, here, plain};
 use super::subject::Subject;
 
 /// What to do when a sign may be the wrong way round.
-const SIGN: &str = "inside is where the function is >= 0: if it is written with inside negative, put `-` before it";
+pub(super) const SIGN: &str =
+    "inside is where the function is >= 0: if it is written with inside negative, put `-` before it";
 
 /// All that a report gives cause for.
 pub(super) fn of_report(subject: &Subject, report: &Report) -> Vec<Diagnostic> {

@@ -377,7 +377,7 @@ fn type_word(around: &Around<'_>, token: Token) -> Diagnostic {
     }
     error("unknown-type", format!("`{found}` is no geometric type"))
         .at(span, "")
-        .help("the types are X, Y, Z, T, V, W, C, CONSTANT = e, G = [...] and CENTER = [...]")
+        .help("the types are X, Y, Z, T, V, W, C, CONSTANT = e, G = [...], CENTER = [...] and COLOR = [r, g, b]")
 }
 
 /// The statement stops too early.

@@ -262,8 +262,14 @@ impl<'t> Builder<'t> {
                 _ => GeometricType::C,
             };
         }
+        let coloured = pair.as_rule() == Rule::coloured;
         let mut inner = pair.into_inner();
         let word = inner.next().map_or("", |w| w.as_str()).to_ascii_uppercase();
+        if coloured {
+            let range = inner.clone().find(|p| p.as_rule() == Rule::colour_range);
+            let range = range.and_then(|r| <[Expr; 2]>::try_from(self.exprs(r.into_inner())).ok());
+            return GeometricType::Color(self.exprs(inner).pop(), range.map(Box::new));
+        }
         let value = self.exprs(inner).pop();
         match word.as_str() {
             "CONSTANT" => GeometricType::Constant(value),

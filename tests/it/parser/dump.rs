@@ -83,6 +83,10 @@ fn geometric(kind: &GeometricType) -> String {
         GeometricType::Constant(e) => format!("CONSTANT{}", optional(e)),
         GeometricType::Group(e) => format!("G{}", optional(e)),
         GeometricType::Center(e) => format!("CENTER{}", optional(e)),
+        GeometricType::Color(e, range) => {
+            let range = range.iter().flat_map(|r| r.iter()).map(|e| format!(" in {}", expr(e))).collect::<String>();
+            format!("COLOR{}{range}", optional(e))
+        }
         axis => format!("{axis:?}"),
     }
 }

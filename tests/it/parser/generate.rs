@@ -3,6 +3,21 @@
 /// A small generator of random numbers, so that a failure can be repeated from its seed.
 pub struct Random(pub u64);
 
+const KINDS: [&str; 12] = [
+    "X",
+    "y",
+    "Z",
+    "T",
+    "v",
+    "W",
+    "C",
+    "CONSTANT = 0.5",
+    "g = [0, 1]",
+    "Center",
+    "color = [x1, 0, 1]",
+    "COLOUR = x3 IN [-1, a]",
+];
+
 impl Random {
     pub fn below(&mut self, n: usize) -> usize {
         self.0 ^= self.0 << 13;
@@ -140,8 +155,7 @@ impl Generator<'_> {
                 let subject = self.random.one(&["x4", "X1", "gob_a"]);
                 self.put(subject);
                 self.symbol(":");
-                let kind =
-                    self.random.one(&["X", "y", "Z", "T", "v", "W", "C", "CONSTANT = 0.5", "g = [0, 1]", "Center"]);
+                let kind = self.random.one(&KINDS);
                 self.put(kind);
             }
             5 => {

@@ -2,6 +2,8 @@
 //! derivative of the taken branch (the first on a tie), steps give 0, and where both operands of an R-function vanish its root's
 //! derivative counts as 0. Never recurses; never approximates, apart from second derivatives of data.
 
+mod region;
+
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
@@ -91,6 +93,7 @@ impl Rules<'_> {
             }
             Node::Ternary(op, operands) => self.set_operation(*op, *operands, by),
             Node::Leaf(leaf, arguments) => self.leaf(leaf, arguments, by),
+            Node::Region(region, output, arguments) => self.region(&region.0, *output as usize, arguments, node, by),
             Node::Map(body, mapping) => self.through(*body, mapping, by),
         }
     }

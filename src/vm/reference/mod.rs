@@ -1,20 +1,28 @@
 //! The slow, obvious walk over the graph, for any kind of number: what every compiled evaluator must agree with. Shares nothing with
 //! the compiler; a map evaluates its body at the mapped point. Never recurses.
 
+pub mod region;
+
 use rustc_hash::FxHashMap;
 
-use crate::field::{Coordinate, Graph, Node, NodeId};
+use crate::field::{Coordinate, Graph, Node, NodeId, Region};
 use crate::number::{Algebra, Dual, Duals, Interval, Intervals, Leaf, Reals};
 
 /// Kinds of number at which data can be asked too.
 pub trait Meaning: Algebra {
     /// The leaf at these arguments.
     fn leaf(&mut self, leaf: &dyn Leaf, arguments: &[Self::Number]) -> Self::Number;
+
+    /// The outputs of a region for these arguments.
+    fn region(&mut self, region: &Region, arguments: &[Self::Number]) -> Vec<Self::Number>;
 }
 
 impl Meaning for Reals {
     fn leaf(&mut self, leaf: &dyn Leaf, arguments: &[f64]) -> f64 {
         leaf.value(arguments)
+    }
+    fn region(&mut self, region: &Region, arguments: &[f64]) -> Vec<f64> {
+        region::at_a_point(self, region, arguments, |v| *v, |v, _, _| v)
     }
 }
 
@@ -22,11 +30,21 @@ impl Meaning for Intervals {
     fn leaf(&mut self, leaf: &dyn Leaf, arguments: &[Interval]) -> Interval {
         leaf.bounds(arguments)
     }
+    fn region(&mut self, region: &Region, arguments: &[Interval]) -> Vec<Interval> {
+        region::over_a_box(region, arguments)
+    }
 }
 
 impl<const N: usize> Meaning for Duals<N> {
     fn leaf(&mut self, leaf: &dyn Leaf, arguments: &[Dual<N>]) -> Dual<N> {
         leaf_dual(leaf, arguments)
+    }
+    fn region(&mut self, region: &Region, arguments: &[Dual<N>]) -> Vec<Dual<N>> {
+        let moving = |value: f64, with: &Dual<N>, by: f64| Dual {
+            value,
+            slope: with.slope.map(|s| crate::number::dual::times(by, s)),
+        };
+        region::at_a_point(self, region, arguments, |d| d.value, moving)
     }
 }
 
@@ -46,13 +64,23 @@ type Point<N> = Vec<Option<N>>;
 
 /// The value at `root` where each coordinate has the number that `point` lists. A coordinate that is not listed is undefined (NaN).
 pub fn eval<M: Meaning>(meaning: &mut M, graph: &Graph, root: NodeId, point: &[(Coordinate, M::Number)]) -> M::Number {
-    let mut first: Point<M::Number> = vec![None; 17];
+    eval_all(meaning, graph, &[root], point).remove(0)
+}
+
+/// The values at several roots.
+fn eval_all<M: Meaning>(
+    meaning: &mut M,
+    graph: &Graph,
+    roots: &[NodeId],
+    point: &[(Coordinate, M::Number)],
+) -> Vec<M::Number> {
+    let mut first: Point<M::Number> = vec![None; Coordinate::MOST + 1];
     for (c, number) in point {
         first[usize::from(c.0)] = Some(number.clone());
     }
     let mut walk =
         Walk { meaning, graph, points: vec![first], mapped: FxHashMap::default(), values: FxHashMap::default() };
-    let mut open = vec![(root, 0)];
+    let mut open: Vec<Key> = roots.iter().map(|root| (*root, 0)).collect();
     while let Some(&key) = open.last() {
         if walk.values.contains_key(&key) {
             open.pop();
@@ -65,7 +93,7 @@ pub fn eval<M: Meaning>(meaning: &mut M, graph: &Graph, root: NodeId, point: &[(
             open.extend(missing);
         }
     }
-    walk.values[&(root, 0)].clone()
+    roots.iter().map(|root| walk.values[&(*root, 0)].clone()).collect()
 }
 
 /// A node and the number of the point at which it is evaluated.
@@ -140,6 +168,10 @@ impl<M: Meaning> Walk<'_, M> {
             Node::Leaf(leaf, arguments) => {
                 let arguments: Vec<M::Number> = arguments.iter().map(|e| operand(self, *e)).collect();
                 self.meaning.leaf(&*leaf.0, &arguments)
+            }
+            Node::Region(region, output, arguments) => {
+                let arguments: Vec<M::Number> = arguments.iter().map(|e| operand(self, *e)).collect();
+                self.meaning.region(&region.0, &arguments)[*output as usize].clone()
             }
             Node::Map(body, _) => self.values[&(*body, self.mapped[&key])].clone(),
         };

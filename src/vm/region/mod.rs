@@ -1,0 +1,216 @@
+//! Compiled regions: loops that run at each point and searches for highest values, as programs of their own, and the blocks that they
+//! work on. Never changes what a region means: that is said in `field::region` and computed as `vm::reference` does.
+
+mod repeat;
+mod search;
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::compile::CompileError;
+use super::kernels::{Kind, Store};
+use super::program::{Demand, Program, Value};
+use crate::field::{Coordinate, Form, NodeId, Region};
+use crate::limits::Limits;
+use crate::number::extremum::ball::directions;
+use crate::number::turns::Turns;
+use search::Probe;
+
+/// What loops and searches have cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Turns of loops, over all points.
+    pub turns: u64,
+    /// Points that took more turns than allowed, and so are undefined.
+    pub exceeded: u64,
+    /// Points at which a highest value was searched.
+    pub searches: u64,
+}
+
+impl Counts {
+    /// Both taken together.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            turns: self.turns + other.turns,
+            exceeded: self.exceeded + other.exceeded,
+            searches: self.searches + other.searches,
+        }
+    }
+}
+
+/// Kinds of number that stand for one point, with or without derivatives.
+pub(crate) trait Pointwise: Kind {
+    /// The value as a double.
+    fn number(item: Self::Item) -> f64;
+    /// A number that moves as `by` times another one does.
+    fn moving(value: f64, with: Self::Item, by: f64) -> Self::Item;
+}
+
+/// A program with several results.
+#[derive(Debug)]
+pub(crate) struct Body {
+    program: Program,
+    roots: Vec<Value>,
+}
+
+impl Body {
+    fn compile(region: &Region, roots: &[NodeId], parameters: usize, limits: &Limits) -> Result<Self, CompileError> {
+        #[allow(clippy::cast_possible_truncation)]
+        let inputs: Vec<Coordinate> = (1..=parameters as u8).map(Coordinate).collect();
+        let (program, roots) = Program::compile_all(region.graph(), roots, &inputs, Demand::Value, limits)?;
+        Ok(Self { program, roots })
+    }
+}
+
+/// A compiled region.
+#[derive(Debug)]
+pub(crate) struct RegionProgram {
+    work: Work,
+    turns: AtomicU64,
+    exceeded: AtomicU64,
+    searches: AtomicU64,
+}
+
+#[derive(Debug)]
+enum Work {
+    /// The condition, then the next values.
+    Loop { body: Body, limit: usize },
+    /// The value; the value and its derivative.
+    Section { body: Body, both: Body, continuous: bool, budget: usize },
+    /// The value, over so many parameters that move.
+    Ball { body: Body, dimension: usize, directions: Vec<Vec<f64>> },
+}
+
+impl RegionProgram {
+    /// The program of a region.
+    ///
+    /// # Errors
+    /// [`CompileError::TooLarge`] if a part takes more operations than `limits` allow.
+    pub(crate) fn compile(region: &Region, limits: &Limits) -> Result<Self, CompileError> {
+        let coordinates = |roots: &[NodeId]| {
+            let used = roots.iter().flat_map(|root| region.graph().coordinates(*root).iter().last());
+            used.map(|c| usize::from(c.0)).max().unwrap_or(0)
+        };
+        let roots = region.form().roots();
+        let compile = |roots: &[NodeId], least: usize| {
+            Body::compile(region, roots, coordinates(roots).max(least), limits)
+        };
+        let work = match region.form() {
+            Form::Loop { next, .. } => Work::Loop { body: compile(&roots, next.len())?, limit: limits.point_turns },
+            Form::Section { continuous, .. } => Work::Section {
+                body: compile(&roots[..1], 1)?,
+                both: compile(&roots, 1)?,
+                continuous: *continuous,
+                budget: limits.section_pieces,
+            },
+            Form::Ball { dimension, .. } => Work::Ball {
+                body: compile(&roots, *dimension)?,
+                dimension: *dimension,
+                directions: directions(*dimension),
+            },
+        };
+        let zero = || AtomicU64::new(0);
+        Ok(Self { work, turns: zero(), exceeded: zero(), searches: zero() })
+    }
+
+    /// What it has cost.
+    pub(crate) fn counts(&self) -> Counts {
+        let get = |count: &AtomicU64| count.load(Ordering::Relaxed);
+        Counts { turns: get(&self.turns), exceeded: get(&self.exceeded), searches: get(&self.searches) }
+    }
+
+    /// Runs it on the first lanes of what it was given.
+    pub(crate) fn run<K: Pointwise>(&self, store: &mut RegionStore<K>, lanes: usize) {
+        match &self.work {
+            Work::Loop { body, limit } => {
+                let (turns, exceeded) = repeat::points(body, *limit, store, lanes);
+                self.turns.fetch_add(turns, Ordering::Relaxed);
+                self.exceeded.fetch_add(exceeded, Ordering::Relaxed);
+            }
+            Work::Section { body, both, continuous, budget } => {
+                self.searches.fetch_add(lanes as u64, Ordering::Relaxed);
+                search::sections(body, both, (*continuous, *budget), store, lanes);
+            }
+            Work::Ball { body, dimension, directions } => {
+                self.searches.fetch_add(lanes as u64, Ordering::Relaxed);
+                search::balls(body, *dimension, directions, store, lanes);
+            }
+        }
+    }
+
+    /// Bounds what it puts out, over the boxes in the first lanes.
+    pub(crate) fn run_ranges(&self, store: &mut RegionStore<super::interval::Ranges>, lanes: usize) {
+        match &self.work {
+            Work::Loop { body, limit } => repeat::ranges(body, *limit, store, lanes),
+            Work::Section { both, continuous, .. } => search::section_ranges(both, *continuous, store, lanes),
+            Work::Ball { body, dimension, directions } => {
+                search::ball_ranges(body, *dimension, directions, store, lanes);
+            }
+        }
+    }
+}
+
+/// The blocks of a region within an evaluator, kept from one call to the next.
+pub(crate) struct RegionStore<K: Kind> {
+    /// Its arguments.
+    given: Vec<Box<K::Block>>,
+    outputs: Vec<Box<K::Block>>,
+    /// Next values, while the old ones are still read.
+    held: Vec<Box<K::Block>>,
+    inner: Store<K>,
+    watch: K::Watch,
+    /// The lane that each lane at work came from.
+    places: Vec<usize>,
+    /// The lanes at work that go on.
+    going: Vec<usize>,
+    /// For loops over boxes, by lane.
+    turns: Vec<Turns>,
+    probe: Option<Box<Probe>>,
+}
+
+impl<K: Kind> RegionStore<K> {
+    pub(crate) fn new() -> Self {
+        Self {
+            given: Vec::new(),
+            outputs: Vec::new(),
+            held: Vec::new(),
+            inner: Store::new(),
+            watch: K::Watch::default(),
+            places: Vec::new(),
+            going: Vec::new(),
+            turns: Vec::new(),
+            probe: None,
+        }
+    }
+
+    /// Takes an argument.
+    pub(crate) fn give(&mut self, place: usize, block: &K::Block, lanes: usize) {
+        room::<K>(&mut self.given, place + 1);
+        copy::<K>(block, &mut self.given[place], lanes);
+    }
+
+    /// Copies an output.
+    pub(crate) fn put_out(&self, output: usize, out: &mut K::Block, lanes: usize) {
+        copy::<K>(&self.outputs[output], out, lanes);
+    }
+
+    /// Runs a program on what stands in the inner inputs.
+    fn run(&mut self, program: &Program, lanes: usize) {
+        self.inner.live = lanes;
+        K::begin(&mut self.watch, program.operations.len(), lanes);
+        K::run(program, &mut self.inner, lanes.next_multiple_of(16).min(K::LANES), &mut self.watch);
+    }
+}
+
+/// Makes room for so many blocks.
+fn room<K: Kind>(blocks: &mut Vec<Box<K::Block>>, count: usize) {
+    while blocks.len() < count {
+        blocks.push(Box::default());
+    }
+}
+
+fn copy<K: Kind>(from: &K::Block, to: &mut K::Block, lanes: usize) {
+    for i in 0..lanes.min(K::LANES) {
+        K::set(to, i, K::get(from, i));
+    }
+}
