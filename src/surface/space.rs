@@ -26,6 +26,8 @@ const FINE: f64 = 1.0 / 256.0;
 const ROUNDS: usize = 400;
 /// Work that a box costs besides its operations.
 const OVERHEAD: u64 = 64;
+/// What an operation on one box costs, in operations at points: those come in blocks.
+const BOX: u64 = 8;
 /// Points at a time where intervals fail.
 const SAMPLES: usize = 2048;
 

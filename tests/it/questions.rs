@@ -11,7 +11,7 @@ use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::model::Session;
 use yont::model::request::measured::Dimension;
-use yont::model::request::{self, Cells, Measured, Options, Output, Timing, View};
+use yont::model::request::{self, Cells, Measured, Options, Output, Precision, Timing, View};
 use yont::surface::estimate::Estimate;
 use yont::syntax::Mode;
 
@@ -282,6 +282,67 @@ fn ordinary_objects_give_no_false_alarm() {
             let notes = measured(script, resolution).unwrap_or_else(|told| panic!("{name}: {told:?}")).notes;
             let loud: Vec<_> = notes.iter().filter(|note| note.severity > Severity::Note).collect();
             assert!(loud.is_empty(), "{name} at {resolution}: {loud:?}");
+        }
+    }
+}
+
+/// Single precision gives the same object but for its last digits, and never fails where double precision does not.
+#[test]
+fn single_precision_is_a_preview_of_the_same_object() {
+    let wild = "gob_a = IF x1*7 - FLOOR(x1*7) < 0.5 THEN 1 - x1**2 - x2**2 - x3**2 ELSE 0.7 - MAX(ABS(x1), ABS(x2), ABS(x3)); ";
+    let scripts = SOLIDS.iter().map(|solid| solid.1).chain([wild]);
+    for script in scripts {
+        let at = |precision| {
+            let view = View { cells: Cells::Along(40), precision, ..View::default() };
+            let measured =
+                request::measure(&mut opened(script), &view).unwrap_or_else(|told| panic!("{script}: {told:?}"));
+            let Dimension::Solid(solid, _) = measured.of else { panic!("{script}") };
+            (solid.volume.value, solid.topology.components, measured.notes.iter().any(|n| n.code == "single-precision"))
+        };
+        let (double, single) = (at(Precision::Double), at(Precision::Single));
+        assert!((double.0 - single.0).abs() < 2e-3 * double.0, "{script}: {double:?} {single:?}");
+        assert_eq!((double.2, single.2), (false, true), "{script}");
+    }
+    let value = |precision| {
+        let view = View { precision, ..View::default() };
+        request::sample(&mut opened("gob_a = x1/3;"), &view, &[vec![1.0]], false).expect("a value")[0].value
+    };
+    assert_eq!(value(Precision::Double), 1.0 / 3.0);
+    assert_eq!(value(Precision::Single), f64::from(1.0_f32 / 3.0));
+}
+
+#[test]
+fn info_tells_ranges_found_and_given_and_what_products_share() {
+    let script = "{ A bar }\ngob_bar = 1 - x1**2 - x2**2 @ x3 & 2 - x3;
+        gob_odd = 1 - x1**2 - x2**2 @ x2 + x3;
+        x1min = -3; x1max = 3;";
+    let all = request::info(&mut opened(script), None).expect("two objects");
+    let bar = all[0].json();
+    assert_eq!(bar["name"], "gob_bar");
+    assert_eq!(bar["doc"], "A bar");
+    assert_eq!(bar["route"], "cubes");
+    assert_eq!(bar["bounds"]["x1"], serde_json::json!([-3.0, 3.0]), "given");
+    assert_eq!(bar["bounds"]["x3"], serde_json::json!([-0.1, 2.1]), "found");
+    assert_eq!(bar["found"], serde_json::json!(["x2", "x3"]));
+    assert_eq!(bar["products"][0]["shared"], serde_json::json!([]));
+    let odd = all[1].json();
+    assert_eq!(odd["products"][0]["shared"], serde_json::json!(["x2"]));
+    assert!(odd["errors"][0].as_str().is_some_and(|told| told.contains("without end towards +x3")), "{odd}");
+    let text = all[1].to_string();
+    assert!(text.contains("both have x2"), "{text}");
+}
+
+/// With next to no work allowed, the space is a guess, and that is said.
+#[test]
+fn a_space_beyond_the_work_allowed_is_guessed() {
+    for (search_operations, code) in [(300_000_000, "space-found"), (2_000, "space-guessed")] {
+        let limits = Limits { search_operations, ..Limits::default() };
+        let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
+        assert!(session.input("script.geo", SOLIDS[1].1, Mode::Script).accepted);
+        let subject = request::subject(&mut session, &View::default(), &Timing::default()).expect("a space");
+        assert_eq!(subject.notes[0].code, code);
+        for ([lo, hi], [from, to]) in subject.bounds().iter().zip([[-1.577, 1.823], [-2.156, 1.244], [-0.911, 2.489]]) {
+            assert!(*lo < from && *hi > to, "{code}: {lo} to {hi}");
         }
     }
 }

@@ -142,7 +142,7 @@ fn solid(f: &mut fmt::Formatter<'_>, m: &Measures, triangles: usize) -> fmt::Res
         let head = if i == 0 { "bounding box  " } else { "              " };
         writeln!(f, "  {head}{} to {}", Told(*lo), Told(*hi))?;
     }
-    for (bend, name) in m.curvature.iter().flatten().zip(["mean curvature    ", "Gaussian curvature"]) {
+    for (bend, name) in m.curvature.iter().flatten().zip(["mean", "Gaussian"]) {
         curvature(f, name, bend)?;
     }
     let t = &m.topology;
@@ -158,14 +158,14 @@ fn plane(f: &mut fmt::Formatter<'_>, figure: &Figure) -> fmt::Result {
         writeln!(f, "  {}{}", if i == 0 { "inertia       " } else { "              " }, row(line))?;
     }
     if let Some(bend) = &figure.curvature {
-        curvature(f, "curvature", bend)?;
+        curvature(f, "outlines", bend)?;
     }
     write!(f, "  topology      components {}, holes {}", figure.components, figure.holes)
 }
 
 fn curvature(f: &mut fmt::Formatter<'_>, name: &str, bend: &Bend) -> fmt::Result {
     let Bend { integral, average, least, largest } = *bend;
-    writeln!(f, "  {name}  average {}, from {} to {}", Told(average), Told(least), Told(largest))?;
+    writeln!(f, "  curvature     {name}: average {}, from {} to {}", Told(average), Told(least), Told(largest))?;
     writeln!(f, "                integral {}", Told(integral))
 }
 

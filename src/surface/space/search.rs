@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-use super::{FAR, FINE, Known, OVERHEAD, ROUGH, ROUNDS, SAMPLES};
+use super::{BOX, FAR, FINE, Known, OVERHEAD, ROUGH, ROUNDS, SAMPLES};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
 use crate::vm::interval::Boxes;
@@ -315,7 +315,7 @@ impl<'a> Search<'a> {
     /// What is left of the parts of a box once intervals have looked at them.
     fn examined(&mut self, of: &Candidate, parts: Vec<Vec<[f64; 2]>>, end: (usize, bool)) -> Vec<Candidate> {
         let bounds = self.bounds(&of.program, &parts);
-        let mut open = Vec::new();
+        let (mut open, count) = (Vec::new(), parts.len());
         for (lane, (sides, value)) in parts.into_iter().zip(bounds).enumerate() {
             if value.is_empty() || value.is_negative() {
                 continue;
@@ -324,8 +324,11 @@ impl<'a> Search<'a> {
                 self.add_inside(&sides);
                 continue;
             }
-            let program = self.boxes.specialise(&of.program, lane).map_or_else(|| Arc::clone(&of.program), Arc::new);
-            open.push((sides, program));
+            let length = of.program.len() as u64;
+            // A shorter program costs about as much as two evaluations, and half a slab seldom has one.
+            let shorter = (count > 1).then(|| self.boxes.specialise(&of.program, lane)).flatten();
+            self.spent += if count > 1 { BOX * length } else { 0 };
+            open.push((sides, shorter.map_or_else(|| Arc::clone(&of.program), Arc::new)));
         }
         open.into_iter().map(|(sides, program)| self.candidate(sides, program, end)).collect()
     }
@@ -361,32 +364,30 @@ impl<'a> Search<'a> {
         let slices: Vec<&[Interval]> = columns.iter().map(Vec::as_slice).collect();
         let mut values = vec![Interval::EMPTY; parts.len()];
         self.boxes.eval(program, &slices, &mut values);
-        self.spent += parts.len() as u64 * (program.len() as u64 + OVERHEAD);
+        self.spent += BOX * parts.len() as u64 * (program.len() as u64 + OVERHEAD);
         values
     }
 
     /// A box that is still to be split, with the value at its middle. The point below that at the end that reaches less far is looked at
     /// as well: flat faces often lie there.
     fn candidate(&mut self, sides: Vec<[f64; 2]>, program: Arc<Program>, (axis, up): (usize, bool)) -> Candidate {
-        let mut point: Vec<f64> = sides.iter().map(|side| middle(*side)).collect();
-        let value = self.value(&program, &point);
-        point[axis] = sides[axis][usize::from(!up)];
-        if point[axis].is_finite() {
-            self.value(&program, &point);
+        let mut columns: Vec<[f64; 2]> = sides.iter().map(|side| [middle(*side); 2]).collect();
+        let end = sides[axis][usize::from(!up)];
+        if end.is_finite() {
+            columns[axis][1] = end;
         }
+        let slices: Vec<&[f64]> = columns.iter().map(<[f64; 2]>::as_slice).collect();
+        let mut values = [0.0; 2];
+        self.points.eval(&program, &slices, &mut values);
+        self.spent += BOX * program.len() as u64;
+        for (k, &value) in values.iter().enumerate() {
+            let point: Vec<f64> = columns.iter().map(|column| column[k]).collect();
+            self.learn(value, &point);
+        }
+        let [value, _] = values;
         self.count += 1;
         let score = if value.is_nan() { f64::NEG_INFINITY } else { value };
         Candidate { reach: 0.0, score, number: self.count, sides, program }
-    }
-
-    fn value(&mut self, program: &Program, point: &[f64]) -> f64 {
-        let columns: Vec<[f64; 1]> = point.iter().map(|&c| [c]).collect();
-        let slices: Vec<&[f64]> = columns.iter().map(<[f64; 1]>::as_slice).collect();
-        let mut value = [0.0];
-        self.points.eval(program, &slices, &mut value);
-        self.spent += program.len() as u64;
-        self.learn(value[0], point);
-        value[0]
     }
 
     pub(super) fn learn(&mut self, value: f64, point: &[f64]) {
