@@ -79,7 +79,7 @@ fn moments_of_a_shifted_ellipsoid_are_the_closed_forms() {
         assert!(measures.inertia[d][(d + 1) % 3].value.abs() < 1e-4 * mass);
         let [lo, hi] = measures.bounds.expect("not empty")[d];
         assert!(lo.holds(at[d] - axes[d]) && hi.holds(at[d] + axes[d]), "{lo:?} {hi:?}");
-        assert!(lo.error < 1e-4 && hi.error < 1e-4, "{lo:?} {hi:?}");
+        assert!(lo.error < 1e-3 && hi.error < 1e-3, "{lo:?} {hi:?}");
     }
 }
 

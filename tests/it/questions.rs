@@ -322,7 +322,7 @@ fn info_tells_ranges_found_and_given_and_what_products_share() {
     assert_eq!(bar["doc"], "A bar");
     assert_eq!(bar["route"], "cubes");
     assert_eq!(bar["bounds"]["x1"], serde_json::json!([-3.0, 3.0]), "given");
-    assert_eq!(bar["bounds"]["x3"], serde_json::json!([-0.1, 2.1]), "found");
+    assert_eq!(bar["bounds"]["x3"], serde_json::json!([-0.05, 2.05]), "found");
     assert_eq!(bar["found"], serde_json::json!(["x2", "x3"]));
     assert_eq!(bar["products"][0]["shared"], serde_json::json!([]));
     let odd = all[1].json();

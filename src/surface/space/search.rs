@@ -248,6 +248,7 @@ impl<'a> Search<'a> {
                 }
             };
             if is_near || top.reach <= known || (self.spent > most && top.reach.is_finite()) {
+                self.probe(&top.sides);
                 return Ok(Climb::Reach(sign * top.reach.max(known)));
             }
             if self.spent > most {
@@ -388,6 +389,30 @@ impl<'a> Search<'a> {
         self.count += 1;
         let score = if value.is_nan() { f64::NEG_INFINITY } else { value };
         Candidate { reach: 0.0, score, number: self.count, sides, program }
+    }
+
+    /// Looks at the corners of a box and the points between them: a tip often lies there, which the middle misses.
+    fn probe(&mut self, sides: &[[f64; 2]]) {
+        let moving: Vec<usize> = (0..sides.len()).filter(|&axis| width(sides[axis]) > 0.0).collect();
+        if moving.len() > 4 || sides.iter().any(|side| !width(*side).is_finite()) {
+            return;
+        }
+        let count = 3_usize.pow(moving.len() as u32);
+        let mut columns: Vec<Vec<f64>> = sides.iter().map(|side| vec![side[0]; count]).collect();
+        for (k, &axis) in moving.iter().enumerate() {
+            let [lo, hi] = sides[axis];
+            let choices = [lo, 0.5 * lo + 0.5 * hi, hi];
+            columns[axis] = (0..count).map(|i| choices[i / 3_usize.pow(k as u32) % 3]).collect();
+        }
+        let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let mut values = vec![0.0; count];
+        let program = Arc::clone(&self.program);
+        self.points.eval(&program, &slices, &mut values);
+        self.spent += BOX * program.len() as u64;
+        for (i, &value) in values.iter().enumerate() {
+            let point: Vec<f64> = columns.iter().map(|column| column[i]).collect();
+            self.learn(value, &point);
+        }
     }
 
     pub(super) fn learn(&mut self, value: f64, point: &[f64]) {
