@@ -209,6 +209,20 @@ pub fn read_stream(name: &Path, stream: &mut dyn Read, limit: usize) -> Result<V
     Ok(bytes)
 }
 
+/// A file of any length, to be read line by line; pipes too.
+///
+/// # Errors
+/// [`FileError`] when there is no such file, when it is a folder, and when it may not be read.
+pub fn lines(path: &Path) -> Result<Box<dyn io::BufRead>, FileError> {
+    let fail = |reason| FileError::reading(path, reason);
+    let file = fs::File::open(path).map_err(|e| fail(reason(&e)))?;
+    match file.metadata() {
+        Ok(metadata) if metadata.is_dir() => Err(fail(Reason::Folder)),
+        Ok(_) => Ok(Box::new(io::BufReader::new(file))),
+        Err(error) => Err(fail(reason(&error))),
+    }
+}
+
 /// Bytes as text; a byte order mark in front is dropped.
 ///
 /// # Errors

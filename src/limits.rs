@@ -29,6 +29,9 @@ pub struct Limits {
     pub memory_bytes: usize,
     /// Bytes of one data file (volume, mesh).
     pub data_bytes: usize,
+    /// Operations at points (one for a box counts as eight) that the search for a modelling space may spend before it takes what it knows
+    /// by then.
+    pub search_operations: usize,
     /// Frames of one animation or numbered series.
     pub frames: usize,
     /// Pixels along one side of a picture.
@@ -52,6 +55,7 @@ impl Default for Limits {
             program_operations: 8_000_000,
             memory_bytes: 4 << 30,
             data_bytes: 2 << 30,
+            search_operations: 300_000_000,
             frames: 10_000,
             picture_side: 16_384,
             undo_levels: 1_000,

@@ -6,7 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
-use crate::model::request::{FORMATS, Format};
+use crate::model::request::{FORMATS, Format, Precision};
 use crate::picture::camera::View;
 use crate::picture::palette::Palette;
 
@@ -174,7 +174,7 @@ pub struct Subject {
     /// Hold a coordinate at a value (a section), repeatable
     #[arg(long, value_name = "xN=VALUE", value_parser = section, value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Section>,
-    /// The modelling space; by default the program's x1min, x1max and so on
+    /// The modelling space; by default the program's x1min, x1max and so on, or what a search finds
     #[arg(long, value_name = "xN=LO:HI", value_parser = extent, value_delimiter = ',', allow_hyphen_values = true)]
     pub bounds: Vec<Extent>,
 }
@@ -188,6 +188,28 @@ pub struct Fineness {
     /// The length of a cell, instead of --resolution
     #[arg(long, value_name = "LENGTH", conflicts_with = "resolution")]
     pub cell: Option<f64>,
+    /// The numbers that points are computed with; `single` is for previews
+    #[arg(long, value_name = "NUMBERS", default_value = "double")]
+    pub precision: Numbers,
+}
+
+/// The precisions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Numbers {
+    /// About sixteen digits
+    #[default]
+    Double,
+    /// About seven digits
+    Single,
+}
+
+impl From<Numbers> for Precision {
+    fn from(numbers: Numbers) -> Self {
+        match numbers {
+            Numbers::Double => Self::Double,
+            Numbers::Single => Self::Single,
+        }
+    }
 }
 
 /// How pictures look.
@@ -487,6 +509,9 @@ pub struct Sample {
     /// Write the gradient after the value
     #[arg(long)]
     pub gradient: bool,
+    /// The numbers that values are computed with; gradients are always doubles
+    #[arg(long, value_name = "NUMBERS", default_value = "double")]
+    pub precision: Numbers,
 }
 
 /// Checking programs.

@@ -24,22 +24,20 @@ pub fn info(console: &Console, signals: &Signals, options: &arguments::Info) -> 
         return paths(console, options.json);
     }
     let (mut session, _) = session::required(console, signals, &options.program)?;
-    if let Some(name) = &options.object
-        && let Err(diagnostics) = session.object(Some(name))
-    {
-        return Ok(console.report(session.sources(), &diagnostics));
-    }
-    let all = match request::info(&mut session) {
+    let found = {
+        let _progress = console.progress(session.interrupt(), "looking for objects");
+        request::info(&mut session, options.object.as_deref())
+    };
+    let all = match found {
         Ok(all) => all,
         Err(diagnostics) => return Ok(console.report(session.sources(), &diagnostics)),
     };
-    let wanted = |info: &&Info| options.object.as_ref().is_none_or(|name| info.json()["name"] == **name);
-    let wanted: Vec<&Info> = all.iter().filter(wanted).collect();
     if options.json {
-        let objects: Vec<Value> = wanted.into_iter().map(Info::json).collect();
+        let objects: Vec<Value> = all.iter().map(Info::json).collect();
         console.print(&json!({ "objects": objects }).to_string())?;
     } else {
-        wanted.into_iter().try_for_each(|info| console.print(&info.to_string()))?;
+        let texts: Vec<String> = all.iter().map(Info::to_string).collect();
+        console.print(&texts.join("\n\n"))?;
     }
     Ok(Status::Done)
 }
@@ -83,8 +81,11 @@ pub fn measure_one(console: &Console, session: &mut Session, making: &Making, js
         settings::defaults(session).and_then(|defaults| request::measure(session, &view(making, &defaults.view)))
     };
     match measured {
-        Ok(measured) if json => console.print(&measured.json().to_string()).map(|()| Status::Done),
-        Ok(measured) => console.print(&measured.to_string()).map(|()| Status::Done),
+        Ok(measured) => {
+            let text = if json { measured.json().to_string() } else { measured.to_string() };
+            console.print(&text)?;
+            Ok(console.report(session.sources(), &measured.notes))
+        }
         Err(diagnostics) => Ok(console.report(session.sources(), &diagnostics)),
     }
 }

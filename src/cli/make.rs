@@ -30,6 +30,7 @@ pub fn view(making: &Making, default: &View) -> View {
             .map(|extent| (Coordinate(extent.coordinate), extent.lo, extent.hi))
             .collect(),
         cells,
+        precision: making.fineness.precision.into(),
     }
 }
 

@@ -39,8 +39,10 @@ pub struct Axis {
     pub role: Role,
     /// Whether the type was declared, not taken by default.
     pub declared: bool,
-    /// `x1min`, `x1max`.
+    /// `x1min`, `x1max`, if both are given.
     pub range: Option<(f64, f64)>,
+    /// Each of them, if it is given.
+    pub ends: (Option<f64>, Option<f64>),
     /// `x1_delta`.
     pub delta: Option<f64>,
 }
@@ -139,27 +141,6 @@ impl Object {
         let mut axes: Vec<&Axis> = self.axes.iter().filter(|a| a.is_space()).collect();
         axes.sort_by_key(|a| order(&a.role));
         axes
-    }
-
-    /// The lower and upper bounds along the axes of space.
-    ///
-    /// # Errors
-    /// One message with what to add, if a bound is missing.
-    pub fn bounds(&self) -> Result<Vec<(f64, f64)>, Diagnostic> {
-        let space = self.space();
-        let missing: Vec<Coordinate> = space.iter().filter(|a| a.range.is_none()).map(|a| a.coordinate).collect();
-        if missing.is_empty() {
-            return Ok(space.iter().filter_map(|a| a.range).collect());
-        }
-        let add: Vec<String> = missing.iter().map(|c| format!("{c}min = -10; {c}max = 10;")).collect();
-        let options: Vec<String> = missing.iter().map(|c| format!("{c}=-10:10")).collect();
-        let which: Vec<String> = missing.iter().map(ToString::to_string).collect();
-        Err(Diagnostic::error(
-            "no-bounds",
-            format!("the modelling space of `{}` has no bounds along {}", self.name, which.join(", ")),
-        )
-        .help(format!("add to the script: {}", add.join(" ")))
-        .help(format!("or on the command line: --bounds {}", options.join(","))))
     }
 }
 

@@ -121,8 +121,9 @@ impl Session {
                 None => return Ok(None),
             },
         };
-        let axis = Axis { coordinate: c, role, declared: is_declared, range, delta };
-        let shown = used || axis.is_space() && (is_declared || range.is_some());
+        let axis = Axis { coordinate: c, role, declared: is_declared, range, ends: (lo, hi), delta };
+        let is_given = is_declared || lo.is_some() || hi.is_some();
+        let shown = used || axis.is_space() && is_given;
         Ok(shown.then_some(axis))
     }
 

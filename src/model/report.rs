@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashSet;
 
+use crate::field::Coordinates;
 use crate::host::{Host, resolve, seen_from};
 use crate::source::SourceMap;
 use crate::syntax::scan::{Scanner, Token, TokenKind};
@@ -53,6 +54,21 @@ fn reads(definition: &Arc<Definition>) -> Vec<String> {
         }
     }
     sorted(all)
+}
+
+/// The sides of each Cartesian product that a definition and those that it continues are made with.
+pub fn products(state: &State, name: &str) -> Vec<[Coordinates; 2]> {
+    let mut all = Vec::new();
+    let mut next = state.get(name);
+    while let Some(definition) = next {
+        for sides in state.products(definition.id) {
+            if !all.contains(sides) {
+                all.push(*sides);
+            }
+        }
+        next = definition.bases.iter().find(|(n, _)| &**n == name).and_then(|(_, base)| base.as_ref());
+    }
+    all
 }
 
 /// The comment above a definition or above the one that it continues.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashSet;
 
 use crate::diagnostic::Diagnostic;
-use crate::field::Graph;
+use crate::field::{Coordinates, Graph};
 use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
@@ -18,6 +18,7 @@ use crate::syntax::tree::Name;
 use super::definition::{Definition, DefinitionId};
 use super::input::Input;
 use super::lower::Files;
+use super::request::Searched;
 use super::stack::with_large_stack;
 use super::state::{Change, Entry, Kept, State};
 use super::value::{Scalar, Value};
@@ -84,6 +85,8 @@ pub struct Session {
     again: Vec<Name>,
     /// Nodes of the graph after it was last made anew.
     settled: usize,
+    /// Modelling spaces that were found, of objects of this graph.
+    pub(super) searched: Vec<Searched>,
 }
 
 /// Nodes that a session may leave behind before its graph is made anew.
@@ -114,6 +117,7 @@ impl Session {
             seen: FxHashSet::default(),
             again: Vec::new(),
             settled: 0,
+            searched: Vec::new(),
         }
     }
 
@@ -163,6 +167,7 @@ impl Session {
     fn tidy(&mut self) {
         if self.graph.len() > LEFT_BEHIND + 2 * self.settled {
             self.graph = Graph::new();
+            self.searched.clear();
             self.state.forget_all();
             self.settle();
             self.settled = self.graph.len();
@@ -305,6 +310,12 @@ impl Session {
     #[must_use]
     pub fn doc(&self, name: &str) -> Option<String> {
         super::report::doc(&self.state, name)
+    }
+
+    /// The coordinates of both sides of each `@` that a definition is made with.
+    #[must_use]
+    pub fn cartesian(&self, name: &str) -> Vec<[Coordinates; 2]> {
+        super::report::products(&self.state, name)
     }
 
     /// The text of a definition, what it continues included.

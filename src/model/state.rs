@@ -6,6 +6,7 @@ use std::sync::{Arc, Weak};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::Diagnostic;
+use crate::field::Coordinates;
 use crate::syntax::tree::{GeometricType, Name};
 
 use super::definition::{Definition, DefinitionId, SystemInForce};
@@ -81,11 +82,16 @@ pub struct State {
     readers: FxHashMap<Name, Readers>,
     dependents: FxHashMap<DefinitionId, Readers>,
     journal: Vec<Change>,
+    /// The coordinates of both sides of each `@` that a definition's value was made with.
+    products: FxHashMap<DefinitionId, Vec<[Coordinates; 2]>>,
     /// Definitions whose values are to be found again, oldest first.
     stale: Vec<Arc<Definition>>,
     /// Kept results after the last sweep.
     swept: usize,
 }
+
+/// Cartesian products that are remembered of one definition.
+const MOST_PRODUCTS: usize = 16;
 
 /// Definitions that read something. Dead ones are swept when the list has doubled.
 #[derive(Debug, Default)]
@@ -253,6 +259,20 @@ impl State {
         self.journal.push(Change::Kept(id, before));
     }
 
+    /// Remembers that the value of a definition is made with a Cartesian product of objects in these coordinates.
+    pub fn note_product(&mut self, id: DefinitionId, sides: [Coordinates; 2]) {
+        let all = self.products.entry(id).or_default();
+        if all.len() < MOST_PRODUCTS && !all.contains(&sides) {
+            all.push(sides);
+        }
+    }
+
+    /// The Cartesian products that the value of a definition is made with, each kind once.
+    #[must_use]
+    pub fn products(&self, id: DefinitionId) -> &[[Coordinates; 2]] {
+        self.products.get(&id).map(Vec::as_slice).unwrap_or_default()
+    }
+
     /// Drops the result of one definition for a while, so that it is found anew under other circumstances.
     pub fn forget(&mut self, id: DefinitionId) {
         if let Some(kept) = self.kept.remove(&id) {
@@ -263,6 +283,7 @@ impl State {
     /// Drops all results, since the graph that they point into goes; all that is live is to be found again.
     pub fn forget_all(&mut self) {
         self.kept.clear();
+        self.products.clear();
         self.stale.extend(self.names.values().cloned());
         self.stale.extend(self.types.values().map(|d| d.definition.clone()));
     }
@@ -272,6 +293,7 @@ impl State {
         if self.kept.len() > 1_000 + 2 * self.swept {
             let live = self.live();
             self.kept.retain(|id, _| live.contains(id));
+            self.products.retain(|id, _| live.contains(id));
             self.swept = self.kept.len();
         }
     }
@@ -282,6 +304,7 @@ impl State {
         let mut waiting: Vec<Arc<Definition>> = self.readers.get(name).map(|r| r.iter().collect()).unwrap_or_default();
         while let Some(definition) = waiting.pop() {
             let Some(kept) = self.kept.remove(&definition.id) else { continue };
+            self.products.remove(&definition.id);
             self.journal.push(Change::Kept(definition.id, Some(kept)));
             for output in &definition.outputs {
                 if self.is_current_for(output, &definition) {

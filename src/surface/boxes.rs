@@ -15,7 +15,7 @@ use super::sampler::{Counters, Sampler};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
 use crate::vm::interval::Boxes;
-use crate::vm::{Program, Shape};
+use crate::vm::{Precision, Program, Shape};
 
 /// Most boxes that one split gives: 4 along each of three axes.
 pub const LANES: usize = 64;
@@ -124,11 +124,12 @@ where
 {
     let whole = Block { from: [0; 3], to: lattice.counts() };
     let mut counters = Counters::default();
-    let tasks = gather_tasks(lattice, shape, whole, &mut counters, interrupt)?;
+    let room = room(lattice, shape, &whole);
+    let tasks = gather_tasks(lattice, (shape, room), whole, &mut counters, interrupt)?;
     let done: Vec<(V, Counters)> = tasks
         .into_par_iter()
         .map_init(
-            || Walker::new(lattice, shape, interrupt),
+            || Walker::new(lattice, (shape, room), interrupt),
             |walker, task| {
                 let (block, mut own) = (task.block, visitor(&task.block));
                 match task.state {
@@ -162,7 +163,7 @@ enum State {
 /// Splits the whole lattice, level by level, into tasks and boxes that are decided already.
 fn gather_tasks<L: Lattice>(
     lattice: &L,
-    shape: &Shape,
+    (shape, room): (&Shape, f64),
     whole: Block,
     counters: &mut Counters,
     interrupt: &Interrupt,
@@ -174,7 +175,7 @@ fn gather_tasks<L: Lattice>(
         let level: Vec<(Vec<Piece>, u64)> = pieces
             .into_par_iter()
             .map_init(
-                || Level::new(shape),
+                || Level::new(shape, room),
                 |level, piece| {
                     interrupt.tick()?;
                     match &piece.state {
@@ -196,6 +197,7 @@ fn gather_tasks<L: Lattice>(
 struct Walker<'a, L> {
     lattice: &'a L,
     shape: &'a Shape,
+    room: f64,
     interrupt: &'a Interrupt,
     levels: Vec<Option<Box<Level>>>,
     sampler: Sampler,
@@ -203,10 +205,11 @@ struct Walker<'a, L> {
 }
 
 impl<'a, L: Lattice> Walker<'a, L> {
-    fn new(lattice: &'a L, shape: &'a Shape, interrupt: &'a Interrupt) -> Self {
+    fn new(lattice: &'a L, (shape, room): (&'a Shape, f64), interrupt: &'a Interrupt) -> Self {
         Self {
             lattice,
             shape,
+            room,
             interrupt,
             levels: Vec::new(),
             sampler: Sampler::new(shape).heeding(interrupt),
@@ -246,12 +249,12 @@ impl<'a, L: Lattice> Walker<'a, L> {
         if self.levels.len() <= depth {
             self.levels.resize_with(depth + 1, || None);
         }
-        let mut level = self.levels[depth].take().unwrap_or_else(|| Box::new(Level::new(self.shape)));
+        let mut level = self.levels[depth].take().unwrap_or_else(|| Box::new(Level::new(self.shape, self.room)));
         level.examine(self.lattice, program, block, self.lattice.leaf());
         self.boxes += level.children.len() as u64;
         for lane in 0..level.children.len() {
             let child = level.children[lane];
-            if let Some(inside) = verdict(level.values[lane]) {
+            if let Some(inside) = verdict(level.values[lane], self.room) {
                 self.decide(visitor, &child, inside);
             } else if visitor.wants(&child) {
                 let shorter = level.boxes.specialise(program, lane);
@@ -265,11 +268,11 @@ impl<'a, L: Lattice> Walker<'a, L> {
     }
 }
 
-/// Whether the values decide a box: inside, outside, or (None) neither.
-fn verdict(value: Interval) -> Option<bool> {
-    if value.lo > value.hi || value.hi < 0.0 {
+/// Whether the values decide a box: inside, outside, or (None) neither. Values that are computed at points may be off by `room`.
+fn verdict(value: Interval, room: f64) -> Option<bool> {
+    if value.lo > value.hi || value.hi < -room {
         Some(false)
-    } else if value.lo >= 0.0 && !value.undefined {
+    } else if value.lo >= room && !value.undefined {
         Some(true)
     } else {
         None
@@ -283,10 +286,11 @@ struct Level {
     coordinates: Vec<Interval>,
     values: [Interval; LANES],
     boxes: Boxes,
+    room: f64,
 }
 
 impl Level {
-    fn new(shape: &Shape) -> Self {
+    fn new(shape: &Shape, room: f64) -> Self {
         let nothing = Interval::new(0.0, 0.0);
         let mut inputs = vec![[nothing; LANES]; shape.dimension];
         inputs.extend(shape.fixed.iter().map(|&value| [fixed(value); LANES]));
@@ -296,6 +300,7 @@ impl Level {
             coordinates: vec![nothing; shape.dimension],
             values: [nothing; LANES],
             boxes: Boxes::new(),
+            room,
         }
     }
 
@@ -318,7 +323,8 @@ impl Level {
 
     fn pieces<L: Lattice>(&mut self, lattice: &L, program: &Arc<Program>, block: &Block) -> Vec<Piece> {
         self.examine(lattice, program, block, lattice.task());
-        let state = |boxes: &mut Boxes, lane: usize, value| match verdict(value) {
+        let room = self.room;
+        let state = |boxes: &mut Boxes, lane: usize, value| match verdict(value, room) {
             Some(inside) => State::Decided(inside),
             None => State::Open(boxes.specialise(program, lane).map_or_else(|| Arc::clone(program), Arc::new)),
         };
@@ -326,6 +332,36 @@ impl Level {
         let children = self.children.iter().enumerate();
         children.map(|(lane, &block)| Piece { block, state: state(boxes, lane, values[lane]) }).collect()
     }
+}
+
+/// How far values at points may be from the bounds of their boxes: nothing in double precision; in single precision what most of some
+/// points of the lattice show, and some more, so that boxes near the boundary are left to the points.
+fn room(lattice: &impl Lattice, shape: &Shape, whole: &Block) -> f64 {
+    const POINTS: usize = 256;
+    if shape.precision == Precision::Double {
+        return 0.0;
+    }
+    let mut sides = vec![Interval::new(0.0, 0.0); shape.dimension];
+    lattice.bounds(whole, &mut sides);
+    let steps = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
+    let columns: Vec<Vec<f64>> = sides
+        .iter()
+        .zip(steps)
+        .map(|(side, step)| {
+            (0..POINTS).map(|i| side.lo + (side.hi - side.lo) * (0.5 + step * i as f64).fract()).collect()
+        })
+        .collect();
+    let at: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let values = |precision| {
+        let mut out = vec![0.0; POINTS];
+        Sampler::new(&Shape { precision, ..shape.clone() }).values(&shape.program, &at, &mut out);
+        out
+    };
+    let (double, single) = (values(Precision::Double), values(Precision::Single));
+    let mut errors: Vec<f64> =
+        double.iter().zip(&single).map(|(a, b)| (a - b).abs()).filter(|error| error.is_finite()).collect();
+    errors.sort_by(f64::total_cmp);
+    8.0 * errors.get(errors.len() * 9 / 10).copied().unwrap_or(0.0)
 }
 
 /// The bounds of an input that does not move.

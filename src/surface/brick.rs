@@ -7,6 +7,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::boxes::{Block, Visitor, Walk, walk};
+use super::detail::{self, Detail};
 use super::grid::{BYTES_PER_VERTEX, Grid, LEAF};
 use super::marching::SurfaceError;
 use super::mesh::unit;
@@ -100,6 +101,8 @@ pub struct Bricks {
     pub normals: Vec<[f64; 3]>,
     /// What it cost.
     pub counters: Counters,
+    /// Some of what the grid is too coarse to show.
+    pub details: Vec<Detail>,
     directory: Vec<u32>,
 }
 
@@ -129,9 +132,12 @@ impl Bricks {
             positions: Vec::with_capacity(vertices),
             normals: Vec::with_capacity(vertices),
             counters,
+            details: Vec::new(),
             directory: vec![OUTSIDE; leaves.iter().product()],
         };
+        let mut suspects = Vec::new();
         for part in visitors {
+            suspects.extend_from_slice(&part.suspects);
             for block in &part.inside {
                 all.mark_inside(block);
             }
@@ -145,7 +151,15 @@ impl Bricks {
             all.positions.extend_from_slice(&part.positions);
             all.normals.extend_from_slice(&part.normals);
         }
+        interrupt.tick()?;
+        all.details = detail::confirm(suspects, grid, |index| all.is_inside(index), shape, interrupt);
         Ok(all)
+    }
+
+    /// Whether every sample point is inside.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        self.directory.iter().all(|&leaf| leaf == INSIDE)
     }
 
     /// The leaf at that place; outside beyond the grid.
@@ -210,6 +224,7 @@ struct Gathering<'a> {
     bricks: Vec<Brick>,
     positions: Vec<[f64; 3]>,
     normals: Vec<[f64; 3]>,
+    suspects: Vec<Detail>,
     scratch: Scratch,
 }
 
@@ -225,7 +240,8 @@ struct Scratch {
 impl<'a> Gathering<'a> {
     fn new(grid: &'a Grid, found: &'a AtomicUsize, most: usize) -> Self {
         let (inside, bricks, positions, normals) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { grid, found, most, inside, bricks, positions, normals, scratch: Scratch::default() }
+        let (suspects, scratch) = (Vec::new(), Scratch::default());
+        Self { grid, found, most, inside, bricks, positions, normals, suspects, scratch }
     }
 
     /// Evaluates the block and the next plane on each axis; x fastest. Returns the points along each side.
@@ -287,6 +303,14 @@ impl Visitor for Gathering<'_> {
     fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) {
         let side = self.evaluate(block, program, sampler);
         let signs = Signs::of(&self.scratch.values, side);
+        if self.suspects.len() < detail::SUSPECTS {
+            let points = detail::Points { grid: self.grid, from: block.from, side, values: &self.scratch.values };
+            let found = match signs.uniform {
+                Some(inside) => points.hidden(inside, program, sampler).or_else(|| points.sheet(program, sampler)),
+                None => points.sheet(program, sampler),
+            };
+            self.suspects.extend(found);
+        }
         if let Some(inside) = signs.uniform {
             self.uniform(block, inside);
             return;

@@ -6,8 +6,8 @@ use super::boxes::Lattice;
 use super::brick::{Bricks, Leaf};
 use super::cap::{Plane, runs, side_vertex};
 use super::grid::{Grid, LEAF};
-use super::marching::SurfaceError;
-use super::sampler::Counters;
+use super::marching::{Report, SurfaceError};
+use super::sampler::{Counters, Sampler};
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::vm::Shape;
@@ -17,10 +17,8 @@ use crate::vm::Shape;
 pub struct Contour {
     /// Closed polylines (the last point is joined to the first), the inside on the left: outer ones counter-clockwise, holes clockwise.
     pub lines: Vec<Vec<[f64; 2]>>,
-    /// What it cost.
-    pub counters: Counters,
-    /// Sample points of the whole grid: what dense sampling would have evaluated.
-    pub samples: u64,
+    /// What there is to say about it: what it cost, where it was cut.
+    pub report: Report,
 }
 
 impl Contour {
@@ -65,11 +63,35 @@ pub fn outlines(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interru
         return Err(SurfaceError::Dimension(shape.dimension, 2));
     }
     let mut bricks = Bricks::survey(shape, grid, limits, interrupt)?;
-    let counters = std::mem::take(&mut bricks.counters);
+    let mut report = Report {
+        counters: std::mem::take(&mut bricks.counters),
+        samples: grid.counts().iter().map(|&n| n as u64).product(),
+        full: bricks.is_full(),
+        details: std::mem::take(&mut bricks.details),
+        ..Report::default()
+    };
     let mut tracing = Tracing::new(&bricks);
     tracing.all_squares(interrupt)?;
+    report.cut = cut(shape, &bricks, &mut report.counters, interrupt);
     let lines = tracing.lines();
-    Ok(Contour { lines, counters, samples: grid.counts().iter().map(|&n| n as u64).product() })
+    Ok(Contour { lines, report })
+}
+
+/// The sides of the space beyond which the figure goes on: with a sample point where the function is above zero.
+fn cut(shape: &Shape, bricks: &Bricks, counters: &mut Counters, interrupt: &Interrupt) -> [[bool; 2]; 3] {
+    let cells = bricks.grid.cells;
+    let mut sampler = Sampler::new(shape).heeding(interrupt);
+    let mut is_cut = |axis: usize, index: usize| {
+        let inside = (0..=cells[1 - axis]).map(|along| if axis == 0 { [index, along, 0] } else { [along, index, 0] });
+        let inside = inside.filter(|&at| bricks.is_inside(at)).map(|at| bricks.grid.point(at));
+        let (x, y): (Vec<f64>, Vec<f64>) = inside.map(|[x, y, _]| (x, y)).unzip();
+        let mut values = vec![0.0; x.len()];
+        sampler.values(&shape.program, &[&x, &y], &mut values);
+        values.iter().any(|&value| value > 0.0)
+    };
+    let cut = [0, 1].map(|axis| [is_cut(axis, 0), is_cut(axis, cells[axis])]);
+    counters.add(sampler.take_counters());
+    [cut[0], cut[1], [false; 2]]
 }
 
 /// No next vertex.

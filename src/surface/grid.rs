@@ -100,6 +100,20 @@ impl Grid {
         Self { cells: self.cells.map(|n| n.div_ceil(2)), ..*self }
     }
 
+    /// This grid, and those with twice and four times as large cells as far as there are still some cells: for estimates of errors.
+    #[must_use]
+    pub fn coarser(&self) -> Vec<Self> {
+        let longest = self.cells.into_iter().max().unwrap_or_default();
+        let mut all = vec![*self];
+        if longest >= 2 {
+            all.push(self.halved());
+        }
+        if longest >= 16 {
+            all.push(self.halved().halved());
+        }
+        all
+    }
+
     /// Length of a cell along each axis.
     #[must_use]
     pub fn cell(&self) -> [f64; 3] {

@@ -11,19 +11,22 @@ use rayon::prelude::*;
 use super::boxes::Lattice;
 use super::brick::{Brick, Bricks, Leaf, bits};
 use super::cap::{Caps, close};
+use super::detail::Detail;
 use super::grid::{Grid, LEAF};
 use super::mesh::{Mesh, cross, minus, unit};
 use super::sampler::{Counters, Sampler};
 use super::table::{CASES, Edge, edge_start};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
-use crate::vm::Shape;
+use crate::vm::{Precision, Shape};
 
 /// A mesh and what there is to say about it.
 #[derive(Clone, Debug)]
 pub struct Extraction {
     /// The mesh; without triangles where no sample point is inside.
     pub mesh: Mesh,
+    /// How many of its triangles are the object's own; those behind them close it at the faces of the space.
+    pub own: usize,
     /// What it cost, where it was cut.
     pub report: Report,
 }
@@ -38,6 +41,10 @@ pub struct Report {
     /// Faces of the modelling space beyond which the object goes on: lower and upper for each axis. A boundary that lies exactly in a
     /// face is not cut by it.
     pub cut: [[bool; 2]; 3],
+    /// Whether the whole space is inside.
+    pub full: bool,
+    /// Some of what the grid is too coarse to show.
+    pub details: Vec<Detail>,
 }
 
 /// Why there is no mesh.
@@ -79,6 +86,22 @@ impl From<Cancelled> for SurfaceError {
 /// # Errors
 /// See [`SurfaceError`].
 pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Extraction, SurfaceError> {
+    match extract_once(shape, grid, limits, interrupt) {
+        // Single precision, which took another branch than the intervals did.
+        Err(SurfaceError::Contradiction(_)) if shape.precision == Precision::Single => {
+            let double = Shape { precision: Precision::Double, ..shape.clone() };
+            extract_once(&double, grid, limits, interrupt)
+        }
+        result => result,
+    }
+}
+
+fn extract_once(
+    shape: &Shape,
+    grid: &Grid,
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<Extraction, SurfaceError> {
     if shape.dimension != 3 || grid.dimension() != 3 {
         return Err(SurfaceError::Dimension(shape.dimension, 3));
     }
@@ -88,7 +111,13 @@ pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
     };
     let _phase = interrupt.phase("mesh");
     let samples = grid.counts().iter().map(|&n| n as u64).product();
-    let mut report = Report { counters: std::mem::take(&mut bricks.counters), samples, cut: [[false; 2]; 3] };
+    let mut report = Report {
+        counters: std::mem::take(&mut bricks.counters),
+        samples,
+        full: bricks.is_full(),
+        details: std::mem::take(&mut bricks.details),
+        ..Report::default()
+    };
     let mut triangles = join(&bricks, interrupt)?;
     let caps = close(&bricks, interrupt)?.ok_or(SurfaceError::Memory(limits.memory_bytes))?;
     let uncapped = bricks.positions.len();
@@ -97,6 +126,7 @@ pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
         normals: std::mem::take(&mut bricks.normals),
         triangles: Vec::new(),
     };
+    let own = triangles.len();
     for face in &caps.faces {
         triangles.extend_from_slice(&face.triangles);
         report.cut[face.axis][face.side] = goes_on(shape, &caps, &face.points, &mut report.counters, interrupt);
@@ -106,7 +136,7 @@ pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
     mesh.normals.extend_from_slice(&caps.normals);
     mesh.triangles = triangles;
     mend_normals(&mut mesh, uncapped);
-    Ok(Extraction { mesh, report })
+    Ok(Extraction { mesh, own, report })
 }
 
 /// The triangles of all cells between sample points, in the order of the bricks.

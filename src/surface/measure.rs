@@ -1,26 +1,23 @@
-//! Integrals over a closed mesh: volume, area, centroid, inertia, with error estimates from two resolutions. Checks the mesh first.
+//! Integrals over a closed mesh: volume, area, centroid, inertia, curvature, with error estimates from three resolutions. Checks the mesh first.
 
 use std::fmt;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::check::{Fault, Topology, check};
+use super::curvature::{self, Sum};
+use super::estimate::{Bend, Estimate};
 use super::grid::Grid;
-use super::marching::{Report, SurfaceError, extract};
+use super::marching::{Extraction, Report, SurfaceError, extract};
 use super::mesh::{Mesh, cross, dot, minus};
+use super::space::reach;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::vm::Shape;
 
-/// A measured number and an estimate of its distance from the solid's own.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Estimate {
-    /// The value, of the mesh at the resolution that was asked for.
-    pub value: f64,
-    /// The difference to the mesh with twice as large cells: Roache's grid convergence index for two grids and an error that falls with
-    /// the square of the cell, where it is about three times the error. An estimate, not a bound.
-    pub error: f64,
-}
+/// Accuracy of the bounding box, as a part of the space.
+const REACH: f64 = 1e-5;
 
 /// What can be measured of a 3-D solid. Lengths are the units of the space, density is 1.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,10 +30,14 @@ pub struct Measures {
     pub centroid: [Estimate; 3],
     /// Inertia tensor about the centre of mass.
     pub inertia: [[Estimate; 3]; 3],
-    /// Smallest and largest coordinates; None for an empty object.
-    pub bounds: Option<([f64; 3], [f64; 3])>,
+    /// Smallest and largest coordinate along each axis, found by intervals: these errors are bounds. None for an empty object.
+    pub bounds: Option<[[Estimate; 2]; 3]>,
     /// Euler characteristic, components, genus.
     pub topology: Topology,
+    /// Whether half the resolution gives the same topology.
+    pub is_settled: bool,
+    /// Mean and Gaussian curvature over the smooth parts; a ball's are one over its radius and the square of that.
+    pub curvature: Option<[Bend; 2]>,
     /// What there is to say about the extraction, both resolutions' costs added.
     pub report: Report,
 }
@@ -73,32 +74,76 @@ impl From<Fault> for MeasureError {
     }
 }
 
-/// Measures a 3-D shape on a grid, and on one with twice as large cells for the estimates.
+/// Measures a 3-D shape on a grid, and on two with larger cells for the estimates.
 ///
 /// # Errors
 /// See [`MeasureError`].
 pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Measures, MeasureError> {
-    let coarse = extract(shape, &grid.halved(), limits, interrupt)?;
-    let fine = extract(shape, grid, limits, interrupt)?;
-    let topology = check(&fine.mesh)?;
-    let [rough, good] = [&coarse.mesh, &fine.mesh].map(Integrals::of);
-    let mut report = fine.report;
-    report.counters.add(coarse.report.counters);
-    // One cell cannot be halved; nothing is known about the error then.
-    let is_compared = grid.halved() != *grid;
-    let estimate = |of: &dyn Fn(&Integrals) -> f64| {
-        let (value, other) = (of(&good), if is_compared { of(&rough) } else { 0.0 });
-        Estimate { value, error: (value - other).abs() }
+    let levels: Vec<Level> =
+        grid.coarser().iter().map(|grid| Level::of(shape, grid, limits, interrupt)).collect::<Result<_, _>>()?;
+    let fine = &levels[0];
+    let size = (0..3).map(|d| grid.hi[d] - grid.lo[d]).fold(0.0, f64::max);
+    let estimate = |part: &dyn Fn(&Integrals) -> f64, scale: f64| {
+        let values = [0, 1, 2].map(|level| levels.get(level).map(|level| part(&level.integrals)));
+        Estimate::from(values, fine.is_smooth, 2e-10 * scale)
     };
+    let Integrals { volume, area, .. } = fine.integrals;
+    let mut report = fine.report.clone();
+    levels[1..].iter().for_each(|level| report.counters.add(level.report.counters.clone()));
+    let bends = |which: usize| {
+        Bend::from([0, 1, 2].map(|k| levels.get(k).and_then(|l| l.bends.map(|b| b[which]))), fine.is_smooth)
+    };
+    let shown = |t: &Topology| (t.euler, t.components);
     Ok(Measures {
-        volume: estimate(&|i| i.volume),
-        area: estimate(&|i| i.area),
-        centroid: std::array::from_fn(|d| estimate(&|i| i.centroid[d])),
-        inertia: std::array::from_fn(|r| std::array::from_fn(|c| estimate(&|i| i.inertia[r][c]))),
-        bounds: fine.mesh.bounds(),
-        topology,
+        volume: estimate(&|i| i.volume, volume),
+        area: estimate(&|i| i.area, area),
+        centroid: std::array::from_fn(|d| estimate(&|i| i.centroid[d], size)),
+        inertia: std::array::from_fn(|r| std::array::from_fn(|c| estimate(&|i| i.inertia[r][c], volume * size * size))),
+        bounds: if volume > 0.0 { bounds(shape, grid, limits, interrupt)? } else { None },
+        topology: fine.topology,
+        is_settled: levels.get(1).is_none_or(|half| shown(&half.topology) == shown(&fine.topology)),
+        curvature: bends(0).zip(bends(1)).map(|(mean, gauss)| [mean, gauss]),
         report,
     })
+}
+
+/// What one resolution tells.
+struct Level {
+    integrals: Integrals,
+    bends: Option<[Sum; 2]>,
+    topology: Topology,
+    is_smooth: bool,
+    report: Report,
+}
+
+impl Level {
+    fn of(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Self, MeasureError> {
+        let Extraction { mesh, own, report } = extract(shape, grid, limits, interrupt)?;
+        let topology = check(&mesh)?;
+        let bends = curvature::of_mesh(shape, &mesh, own, grid.cell(), interrupt).map_err(SurfaceError::from)?;
+        let is_smooth = own == mesh.triangles.len() && !has_creases(&mesh);
+        Ok(Self { integrals: Integrals::of(&mesh), bends, topology, is_smooth, report })
+    }
+}
+
+/// Whether normals at both ends of some edge differ by more than 40 degrees.
+fn has_creases(mesh: &Mesh) -> bool {
+    let turns = |a: u32, b: u32| dot(mesh.normals[a as usize], mesh.normals[b as usize]) < 0.766;
+    mesh.triangles.par_iter().any(|&[a, b, c]| turns(a, b) || turns(b, c) || turns(c, a))
+}
+
+/// How far the object reaches: between points of it and what intervals rule out. The mesh does not tell: its vertices are kept apart.
+fn bounds(
+    shape: &Shape,
+    grid: &Grid,
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<Option<[[Estimate; 2]; 3]>, MeasureError> {
+    let space = (0..3).map(|d| (grid.lo[d], grid.hi[d]));
+    let ranges: Vec<(f64, f64)> = space.chain(shape.fixed.iter().map(|&value| (value, value))).collect();
+    let found = reach(Arc::clone(&shape.program), &ranges, REACH, limits.search_operations / 10, interrupt);
+    let found = found.map_err(SurfaceError::from)?;
+    Ok(found.map(|found| std::array::from_fn(|d| found[d].map(|[one, other]| Estimate::between(one, other)))))
 }
 
 /// The integrals over the inside of one closed mesh.

@@ -3,19 +3,25 @@
 //! The way of a mesh: [`grid`] says where the sample points lie, [`boxes`] finds the undecided leaves among them, [`brick`] evaluates a leaf
 //! and finds a vertex on each crossed edge ([`roots`]), [`marching`] joins the vertices to triangles ([`table`]), [`cap`] closes the object
 //! at the faces of the modelling space. [`check()`] proves the mesh closed, [`measure()`] integrates over it, [`contour`] does the same for
-//! 2-D shapes.
+//! 2-D shapes. [`space`] finds the modelling space when nobody gave one.
 
 pub mod boxes;
 pub mod brick;
 pub mod cap;
 pub mod check;
 pub mod contour;
+pub mod curvature;
+pub mod detail;
+pub mod estimate;
+pub mod figure;
 pub mod grid;
+pub mod line;
 pub mod marching;
 pub mod measure;
 pub mod mesh;
 pub mod roots;
 pub mod sampler;
+pub mod space;
 pub mod table;
 
 pub use check::{Fault, Topology, check};

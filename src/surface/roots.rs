@@ -65,7 +65,8 @@ impl Roots {
         out: &mut Vec<[f64; 3]>,
     ) {
         self.searches.clear();
-        self.searches.extend(crossings.iter().map(Search::new));
+        let epsilon = sampler.epsilon();
+        self.searches.extend(crossings.iter().map(|crossing| Search::new(crossing, epsilon)));
         self.active.clear();
         self.active.extend(0..crossings.len());
         for step in 0..=STEPS {
@@ -108,10 +109,10 @@ impl Crossing {
 }
 
 impl Search {
-    fn new(crossing: &Crossing) -> Self {
+    fn new(crossing: &Crossing, epsilon: f64) -> Self {
         let [first, second] = crossing.values;
         let (lo, hi) = (crossing.start[crossing.axis], crossing.end);
-        let resolved = 4.0 * f64::EPSILON * lo.abs().max(hi.abs()) / (hi - lo);
+        let resolved = 4.0 * epsilon * lo.abs().max(hi.abs()) / (hi - lo);
         let (inside, outside) = if first >= 0.0 { (0.0, 1.0) } else { (1.0, 0.0) };
         let (f_inside, f_outside) = if first >= 0.0 { (first, second) } else { (second, first) };
         let tolerance = resolved.max(TOLERANCE);

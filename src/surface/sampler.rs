@@ -5,7 +5,7 @@ use crate::number::Interval;
 use crate::vm::block::Points;
 use crate::vm::gradient::Gradients;
 use crate::vm::region::Counts;
-use crate::vm::{Program, Shape};
+use crate::vm::{Precision, Program, Shape};
 
 /// What a computation cost, and where the function was undefined.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,9 +52,34 @@ pub struct Sampler {
     dimension: usize,
     fixed: Vec<(f64, Vec<f64>)>,
     points: Points<f64>,
+    single: Option<Box<Single>>,
     gradients: Gradients,
     counters: Counters,
     interrupt: Interrupt,
+}
+
+/// What single precision needs: the evaluator, and the points as singles.
+#[derive(Default)]
+struct Single {
+    points: Points<f32>,
+    columns: Vec<Vec<f32>>,
+    values: Vec<f32>,
+}
+
+impl Single {
+    fn values(&mut self, program: &Program, at: &[&[f64]], out: &mut [f64]) {
+        self.columns.resize_with(at.len(), Vec::new);
+        for (column, axis) in self.columns.iter_mut().zip(at) {
+            column.clear();
+            column.extend(axis.iter().map(|&c| c as f32));
+        }
+        self.values.clear();
+        self.values.resize(out.len(), 0.0);
+        let mut slices = [&[][..]; 16];
+        slices.iter_mut().zip(&self.columns).for_each(|(slice, column)| *slice = column);
+        self.points.eval(program, &slices[..at.len()], &mut self.values);
+        out.iter_mut().zip(&self.values).for_each(|(out, &value)| *out = f64::from(value));
+    }
 }
 
 /// Points handed to a program at once: so few operations in all that a request to stop is heard within some hundredths of a second.
@@ -75,6 +100,7 @@ impl Sampler {
             dimension: shape.dimension,
             fixed: shape.fixed.iter().map(|&value| (value, Vec::new())).collect(),
             points: Points::new(),
+            single: (shape.precision == Precision::Single).then(Box::default),
             gradients: Gradients::new(),
             counters: Counters::default(),
         }
@@ -85,6 +111,12 @@ impl Sampler {
     #[must_use]
     pub fn heeding(self, interrupt: &Interrupt) -> Self {
         Self { interrupt: interrupt.clone(), ..self }
+    }
+
+    /// How well coordinates are told apart, relative to their size.
+    #[must_use]
+    pub fn epsilon(&self) -> f64 {
+        if self.single.is_some() { f64::from(f32::EPSILON) } else { f64::EPSILON }
     }
 
     /// The values at points: one slice of equal length per coordinate of the space, and `out` as long.
@@ -101,7 +133,10 @@ impl Sampler {
             }
             let mut slices = [&[][..]; 16];
             let slices = inputs(&mut self.fixed, &at[..self.dimension], count, &mut slices);
-            self.points.eval(program, slices, out);
+            match &mut self.single {
+                Some(single) => single.values(program, slices, out),
+                None => self.points.eval(program, slices, out),
+            }
             self.counters.count(&at[..self.dimension], out);
         }
     }

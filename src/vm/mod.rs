@@ -19,4 +19,4 @@ pub use compile::CompileError;
 pub use gradient::Gradients;
 pub use interval::Boxes;
 pub use program::{Demand, Program};
-pub use shape::Shape;
+pub use shape::{Precision, Shape};

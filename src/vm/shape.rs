@@ -13,6 +13,18 @@ pub struct Shape {
     pub dimension: usize,
     /// One value for each remaining input (time and so on).
     pub fixed: Vec<f64>,
+    /// The numbers that its values at points are computed with.
+    pub precision: Precision,
+}
+
+/// The numbers that values at points are computed with. Bounds of boxes and slopes are always doubles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// Decides what a user sees.
+    #[default]
+    Double,
+    /// For previews: about seven digits.
+    Single,
 }
 
 impl Shape {
@@ -20,6 +32,6 @@ impl Shape {
     #[must_use]
     pub fn new(program: Program, dimension: usize, fixed: Vec<f64>) -> Self {
         debug_assert_eq!(program.inputs().len(), dimension + fixed.len());
-        Self { program: Arc::new(program), dimension, fixed }
+        Self { program: Arc::new(program), dimension, fixed, precision: Precision::Double }
     }
 }

@@ -326,6 +326,11 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
         &["ball.geo", "-o", "-", "--format", "stl", "--resolution", "9"],
     ),
     ("cell", &["ball.geo", "-o", "-", "--format", "stl"], &["ball.geo", "-o", "-", "--format", "stl", "--cell", "0.7"]),
+    (
+        "precision",
+        &["ball.geo", "-o", "-", "--format", "stl"],
+        &["ball.geo", "-o", "-", "--format", "stl", "--precision", "single"],
+    ),
     ("size", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--size", "20x30"]),
     ("camera", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--camera", "120,-10"]),
     ("projection", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--projection", "orthographic"]),

@@ -26,6 +26,7 @@ mod picture;
 mod plots;
 mod propagation;
 mod prospero;
+mod questions;
 mod readback;
 mod regions;
 mod reference;

@@ -56,7 +56,7 @@ fn estimates_hold_the_closed_forms() {
         let volume = measured(case, 64).volume;
         let error = (volume.value - case.volume.expect("known")).abs();
         assert!(error <= volume.error, "{name}: {error} above the estimate {}", volume.error);
-        assert!(volume.error < 100.0 * error, "{name}: {error} far below the estimate {}", volume.error);
+        assert!(volume.error < 5e-3 * volume.value, "{name}: the estimate {} says nothing", volume.error);
     }
 }
 
@@ -77,8 +77,9 @@ fn moments_of_a_shifted_ellipsoid_are_the_closed_forms() {
         let exact = mass / 5.0 * (squares[(d + 1) % 3] + squares[(d + 2) % 3]);
         assert!((measures.inertia[d][d].value / exact - 1.0).abs() < 5e-3, "{:?}", measures.inertia[d][d]);
         assert!(measures.inertia[d][(d + 1) % 3].value.abs() < 1e-4 * mass);
-        let (lo, hi) = measures.bounds.expect("not empty");
-        assert!((lo[d] - (at[d] - axes[d])).abs() < 0.01 && (hi[d] - (at[d] + axes[d])).abs() < 0.01);
+        let [lo, hi] = measures.bounds.expect("not empty")[d];
+        assert!(lo.holds(at[d] - axes[d]) && hi.holds(at[d] + axes[d]), "{lo:?} {hi:?}");
+        assert!(lo.error < 1e-3 && hi.error < 1e-3, "{lo:?} {hi:?}");
     }
 }
 
@@ -249,9 +250,9 @@ fn scripts_measure_as_their_closed_forms_and_cost_as_their_surface() {
     for &(name, script, volume, euler, smooth) in TEXTS {
         let found = [64, 128].map(|resolution| of_text(script, resolution));
         let errors = found.map(|(value, ..)| value / volume - 1.0);
-        let (ratio, growth) = (errors[0] / errors[1], found[1].2 as f64 / found[0].2 as f64);
+        let growth = found[1].2 as f64 / found[0].2 as f64;
         eprintln!(
-            "{name}: volume {:.6}, {:+.4} % of {volume:.6}, Euler characteristic {}, error ratio {ratio:.2}, {growth:.2} times the points",
+            "{name}: volume {:.6}, {:+.6} % of {volume:.6}, Euler characteristic {}, {growth:.2} times the points",
             found[1].0,
             100.0 * errors[1],
             found[1].1
@@ -259,7 +260,7 @@ fn scripts_measure_as_their_closed_forms_and_cost_as_their_surface() {
         assert!(errors[1].abs() < 0.003, "{name}: {} instead of {volume}", found[1].0);
         assert_eq!(found.map(|f| f.1), [euler; 2], "{name}");
         assert!(growth <= 4.6, "{name}: {found:?}");
-        assert!(!smooth || (3.5..4.5).contains(&ratio), "{name}: errors {errors:?}");
+        assert!(!smooth || errors[1].abs() < 2e-5, "{name}: extrapolated, errors {errors:?}");
     }
 }
 

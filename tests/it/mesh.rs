@@ -122,7 +122,7 @@ fn the_number_of_threads_does_not_change_a_byte() {
     for case in KNOWN.iter().chain(HARD) {
         let of = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            let Extraction { mesh, report } = pool.install(|| case.extract(40));
+            let Extraction { mesh, report, .. } = pool.install(|| case.extract(40));
             let mut text = Vec::new();
             obj::write(&[Part::of("a", &mesh)], &mut text).expect("writing to memory");
             (stl_bytes(&mesh), text, report)
@@ -277,7 +277,7 @@ fn normals_point_out_of_the_solid() {
 #[test]
 fn vertices_lie_on_the_boundary() {
     for case in KNOWN {
-        let Extraction { mesh, report } = case.extract(33);
+        let Extraction { mesh, report, .. } = case.extract(33);
         let grid = case.grid(33);
         let on_face = |p: &[f64; 3]| (0..3).any(|d| p[d] == grid.lo[d] || p[d] == grid.hi[d]);
         let values = shape_of(case.field, 3, Demand::Value);

@@ -57,12 +57,22 @@ impl Lower<'_> {
             ChainOp::And => Ok(self.scalars().binary(Binary::And, a, b)),
             ChainOp::Or => Ok(self.scalars().binary(Binary::Or, a, b)),
             ChainOp::Union => self.union(a, b, span),
+            ChainOp::Intersect => self.intersection(a, b, span),
             ChainOp::Subtract => {
                 let b = self.scalars().unary(Unary::Neg, b);
                 self.intersection(a, b, span)
             }
-            _ => self.intersection(a, b, span),
+            _ => {
+                self.note_product(a, b);
+                self.intersection(a, b, span)
+            }
         }
+    }
+
+    /// `@` is `&` between objects that should share no coordinate: which they have is told when somebody asks.
+    fn note_product(&mut self, a: Scalar, b: Scalar) {
+        let (Scalar::Node(a), Scalar::Node(b), Some(definition)) = (a, b, &self.current) else { return };
+        self.state.note_product(definition.id, [self.graph.coordinates(a), self.graph.coordinates(b)]);
     }
 
     /// `a | b` in the system in force.

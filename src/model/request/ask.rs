@@ -1,29 +1,30 @@
 //! The questions themselves: from a session and a [`View`] to a subject, and from a subject to answers.
 
-use std::fmt;
 use std::io::Write;
-
-use serde_json::{Map, Value, json};
 
 use crate::diagnostic::Diagnostic;
 use crate::field::{Coordinate, NodeId};
 use crate::number::{Algebra, Binary};
-use crate::surface::contour::outlines;
+use crate::surface::figure::measure as measure_figure;
+use crate::surface::line::intervals;
 use crate::surface::marching::SurfaceError;
-use crate::surface::measure::{Estimate, MeasureError, measure as measure_solid};
+use crate::surface::measure::{MeasureError, measure as measure_solid};
 use crate::vm::Demand;
 
-use super::fields::{Sampled, at_points};
+use super::fields::{Sampled, Sampling};
+use super::info::role;
 use super::make::{Workshop, Written, cancelled, make};
 use super::measured::{Dimension, Measured};
 use super::output::Output;
 use super::pictures;
-use super::subject::{Axis, Level, Place, Sequence, Subject};
+use super::space;
+use super::subject::{Level, Place, Sequence, Subject};
 use super::together::subject;
+use super::told;
 use super::{Options, Timing, View};
 use crate::model::environment::{self, Object, Role};
 use crate::model::session::Session;
-use crate::model::value::number;
+use crate::vm::Precision;
 
 /// An answer, or the messages that say why there is none.
 type Asked<T> = Result<T, Vec<Diagnostic>>;
@@ -42,45 +43,61 @@ pub fn write(session: &mut Session, output: &Output, options: &Options, standard
         subject.cut(&options.cuts, &pictures::view(&options.picture).map_err(|d| vec![d])?).map_err(|d| vec![d])?;
     let host = session.host.clone();
     let shop = Workshop { graph: &session.graph, limits: &session.limits, interrupt: &session.interrupt, host: &*host };
-    make(&shop, &subject, output, options, standard).map_err(|d| vec![d])
+    let made = make(&shop, &subject, output, options, standard);
+    made.map_err(|told| subject.notes.iter().cloned().chain([told]).collect())
 }
 
-/// Measures an object: a solid, or a plane figure.
+/// Measures an object: a solid, a plane figure, or one of a single coordinate.
 ///
 /// # Errors
 /// Messages for the user.
 pub fn measure(session: &mut Session, view: &View) -> Asked<Measured> {
     let subject = subject(session, view, &Timing::default())?;
-    let one = |d: Diagnostic| vec![d];
-    subject.is_alone("a measurement").and_then(|()| subject.shown_by("a measurement", &[])).map_err(one)?;
-    let grid = subject.grid(view.cells, &session.limits).map_err(one)?;
-    let shape = subject.shape(&session.graph, Demand::Sign, &session.limits).map_err(one)?;
-    let interrupt = &session.interrupt;
+    subject.is_alone("a measurement").map_err(|told| vec![told])?;
+    let measured = measure_subject(session, view, &subject);
+    measured.map_err(|told| subject.notes.iter().cloned().chain([told]).collect())
+}
+
+fn measure_subject(session: &Session, view: &View, subject: &Subject) -> Result<Measured, Diagnostic> {
+    subject.shown_by("a measurement", &[])?;
+    let (limits, interrupt) = (&session.limits, &session.interrupt);
+    let shape = subject.shape(&session.graph, Demand::Sign, limits)?;
+    let mut notes = subject.notes.clone();
+    if view.precision == Precision::Single {
+        notes.push(
+            Diagnostic::note("single-precision", "measured in single precision: a preview")
+                .fact("the error estimates do not know of it"),
+        );
+    }
+    notes.extend(told::first_moment(subject));
     let _phase = interrupt.phase("measure");
-    let of = if subject.axes.len() == 3 {
-        let measures = measure_solid(&shape, &grid, &session.limits, interrupt).map_err(|e| one(unmeasured(&e)))?;
-        let triangles = measures.topology.triangles;
-        if triangles == 0 {
-            return Err(one(super::make::empty(&subject, None, Some(measures.report.samples))));
+    let (of, resolution) = if let [axis] = subject.axes[..] {
+        let line = intervals(&shape, axis.range, interrupt)?;
+        if line.intervals.is_empty() {
+            return Err(told::empty(subject, None, None));
         }
-        Dimension::Solid(Box::new(measures), triangles)
+        notes.extend(told::undefined(subject, &line.counters));
+        notes.extend(told::cut(subject, &[line.cut, [false; 2], [false; 2]]));
+        (Dimension::Line(line), 0)
     } else {
-        let rough =
-            outlines(&shape, &grid.halved(), &session.limits, interrupt).map_err(|e| one(unmeasured(&e.into())))?;
-        let fine = outlines(&shape, &grid, &session.limits, interrupt).map_err(|e| one(unmeasured(&e.into())))?;
-        if fine.lines.is_empty() {
-            return Err(one(super::make::empty(&subject, None, Some(fine.samples))));
-        }
-        let estimate = |value: f64, other: f64| Estimate { value, error: (value - other).abs() };
-        Dimension::Plane {
-            area: estimate(fine.area(), rough.area()),
-            perimeter: estimate(fine.perimeter(), rough.perimeter()),
-            euler: fine.euler(),
-        }
+        let grid = subject.grid(view.cells, limits)?;
+        let (of, report, is_settled) = if subject.axes.len() == 3 {
+            let measures = measure_solid(&shape, &grid, limits, interrupt).map_err(|e| unmeasured(&e))?;
+            let (report, is_settled) = (measures.report.clone(), measures.is_settled);
+            let triangles = measures.topology.triangles;
+            ((triangles > 0).then(|| Dimension::Solid(Box::new(measures), triangles)), report, is_settled)
+        } else {
+            let figure = measure_figure(&shape, &grid, limits, interrupt).map_err(|e| unmeasured(&e.into()))?;
+            let (report, is_settled) = (figure.report.clone(), figure.is_settled);
+            ((figure.points > 0).then(|| Dimension::Plane(Box::new(figure))), report, is_settled)
+        };
+        let Some(of) = of else { return Err(told::empty(subject, None, Some(&report))) };
+        notes.extend(told::of_report(subject, &report));
+        notes.extend((!is_settled).then(|| told::unsettled(subject)));
+        (of, grid.cells.into_iter().max().unwrap_or_default())
     };
     let bounds = subject.axes.iter().map(|a| (a.coordinate, a.range)).collect();
-    let resolution = grid.cells.into_iter().max().unwrap_or_default();
-    Ok(Measured { object: subject.name.to_string(), bounds, resolution, of })
+    Ok(Measured { object: subject.name.to_string(), bounds, resolution, of, notes })
 }
 
 fn unmeasured(error: &MeasureError) -> Diagnostic {
@@ -95,8 +112,17 @@ fn unmeasured(error: &MeasureError) -> Diagnostic {
 /// # Errors
 /// Messages for the user; one if a point has fewer numbers than the object has coordinates.
 pub fn sample(session: &mut Session, view: &View, points: &[Vec<f64>], gradient: bool) -> Asked<Vec<Sampled>> {
+    let width = points.iter().map(Vec::len).min().unwrap_or(16);
+    let mut sampling = sampling(session, view, width, gradient)?;
+    sampling.values(points, &session.interrupt).map_err(|_| vec![cancelled()])
+}
+
+/// The same for points that come one after the other, each of at least `width` numbers.
+///
+/// # Errors
+/// As [`sample`].
+pub fn sampling(session: &mut Session, view: &View, width: usize, gradient: bool) -> Asked<Sampling> {
     let object = session.object(view.object.as_deref())?;
-    let given = points.iter().map(Vec::len).min().unwrap_or(16);
     let mut fixed = view.at.clone();
     for axis in &object.axes {
         if let Role::Constant(value) = axis.role
@@ -105,101 +131,16 @@ pub fn sample(session: &mut Session, view: &View, points: &[Vec<f64>], gradient:
             fixed.push((axis.coordinate, value));
         }
     }
-    let missing = |c: &Coordinate| usize::from(c.0) > given && !fixed.iter().any(|f| f.0 == *c);
+    let missing = |c: &Coordinate| usize::from(c.0) > width && !fixed.iter().any(|f| f.0 == *c);
     if let Some(c) = object.uses.iter().find(missing) {
-        let title = format!("`{}` depends on {c}, and a point has {given} numbers", object.name);
+        let title = format!("`{}` depends on {c}, and a point has {width} numbers", object.name);
         return Err(vec![
             Diagnostic::error("short-point", title).help(format!("give each point {} numbers, or --at {c}=...", c.0)),
         ]);
     }
     let subject = Subject::of(object.name.clone(), object.node, fixed);
-    match at_points(&subject, &session.graph, points, gradient, &session.limits, &session.interrupt) {
-        Ok(Ok(values)) => Ok(values),
-        Ok(Err(_)) => Err(vec![cancelled()]),
-        Err(told) => Err(vec![told]),
-    }
-}
-
-/// What there is to know of one object without searching for its boundary.
-#[derive(Clone, Debug)]
-pub struct Info {
-    object: Object,
-    operations: usize,
-}
-
-/// What there is to know of each object of a session.
-///
-/// # Errors
-/// Messages for the user, of all objects that fail.
-pub fn info(session: &mut Session) -> Asked<Vec<Info>> {
-    let mut all = Vec::new();
-    let mut told = Vec::new();
-    for name in session.objects() {
-        match session.object(Some(&name)) {
-            Ok(object) => {
-                let operations = crate::field::operations(&session.graph, object.node);
-                all.push(Info { object, operations });
-            }
-            Err(mut errors) => told.append(&mut errors),
-        }
-    }
-    if told.is_empty() { Ok(all) } else { Err(told) }
-}
-
-impl Info {
-    /// As JSON, with the keys that the manual lists.
-    #[must_use]
-    pub fn json(&self) -> Value {
-        let object = &self.object;
-        let coordinates: Vec<String> = object.uses.iter().map(|c| c.to_string()).collect();
-        let types: Map<String, Value> =
-            object.axes.iter().map(|a| (a.coordinate.to_string(), json!(role(&a.role)))).collect();
-        let bounds: Map<String, Value> = object
-            .axes
-            .iter()
-            .filter_map(|a| Some((a.coordinate.to_string(), json!([a.range?.0, a.range?.1]))))
-            .collect();
-        json!({
-            "name": &*object.name, "doc": &*object.doc, "coordinates": coordinates, "types": types, "bounds": bounds,
-            "route": "cubes", "operations": self.operations,
-        })
-    }
-}
-
-impl fmt::Display for Info {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let object = &self.object;
-        let axes: Vec<String> = object
-            .axes
-            .iter()
-            .map(|a| match a.range {
-                Some((lo, hi)) => format!("{} : {} from {lo} to {hi}", a.coordinate, role(&a.role)),
-                None => format!("{} : {}", a.coordinate, role(&a.role)),
-            })
-            .collect();
-        let axes = if axes.is_empty() { "no coordinates".into() } else { axes.join(", ") };
-        write!(f, "{}: {axes}; {} operations", object.name, self.operations)?;
-        if let Some(line) = object.doc.lines().map(str::trim).find(|l| !l.is_empty()) {
-            write!(f, "\n  {line}")?;
-        }
-        Ok(())
-    }
-}
-
-/// A geometric type as the language writes it.
-#[must_use]
-pub fn role(role: &Role) -> String {
-    match role {
-        Role::X => "X".into(),
-        Role::Y => "Y".into(),
-        Role::Z => "Z".into(),
-        Role::T => "T".into(),
-        Role::V => "V".into(),
-        Role::W => "W".into(),
-        Role::C => "C".into(),
-        Role::Constant(value) => format!("CONSTANT = {}", number(*value)),
-        Role::Group(values) => format!("G = [{}]", values.iter().map(|v| number(*v)).collect::<Vec<_>>().join(", ")),
-    }
+    let single = view.precision == Precision::Single;
+    Sampling::new(&subject, &session.graph, (width, gradient, single), &session.limits).map_err(|told| vec![told])
 }
 
 /// The object that a view names as a subject, by itself.
@@ -236,27 +177,14 @@ pub(super) fn alone(session: &mut Session, view: &View, timing: &Timing) -> Aske
             subject.levels = levels.into_iter().map(level).collect();
         }
     }
-    let bounds = object.bounds().unwrap_or_else(|d| {
-        told.push(d);
-        Vec::new()
-    });
     if !told.is_empty() {
         return Err(told);
     }
-    subject.axes = object
-        .space()
-        .iter()
-        .zip(bounds)
-        .map(|(a, (lo, hi))| Axis { coordinate: a.coordinate, range: [lo, hi], order: order(&a.role) })
-        .collect();
     subject.span = session.place(&object.name);
-    subject.colouring = object.colour;
+    subject.colouring = object.colour.clone();
+    subject.precision = view.precision;
+    space::settle(session, &mut subject, &object).map_err(|told| vec![told])?;
     Ok(subject)
-}
-
-/// Which of X, Y and Z a role is.
-fn order(role: &Role) -> usize {
-    [Role::X, Role::Y, Role::Z].iter().position(|known| known == role).unwrap_or(2)
 }
 
 /// The function less a level.
@@ -290,7 +218,15 @@ fn override_axes(object: &mut Object, view: &View) {
             None => {
                 if let Some(role) = environment::default_role(c).filter(|r| matches!(r, Role::X | Role::Y | Role::Z)) {
                     let range = Some((lo, hi));
-                    object.axes.push(environment::Axis { coordinate: c, role, declared: false, range, delta: None });
+                    let ends = (Some(lo), Some(hi));
+                    object.axes.push(environment::Axis {
+                        coordinate: c,
+                        role,
+                        declared: false,
+                        range,
+                        ends,
+                        delta: None,
+                    });
                 }
             }
         }

@@ -11,18 +11,19 @@ use crate::picture::palette::Palette;
 use crate::surface::check::{Topology, check};
 use crate::surface::contour::outlines;
 use crate::surface::grid::Grid;
-use crate::surface::marching::{Extraction, SurfaceError, extract};
+use crate::surface::marching::{Extraction, Report, SurfaceError, extract};
 use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
 use crate::vm::{Demand, Shape};
 
 use super::PictureOptions;
 use super::charts::legend;
-use super::make::{Making, cancelled, empty};
+use super::make::{Making, cancelled};
 use super::output::Format;
 use super::paint::colours_of;
 use super::pictures::Artist;
 use super::subject::{Member, Place, Subject};
+use super::told::{self, empty};
 
 /// Pixels along each side of the picture in a 3MF file.
 const THUMBNAIL: usize = 256;
@@ -117,7 +118,7 @@ impl<'a> Making<'a> {
 
     /// The boundaries of all objects at a moment; one that is empty beside others is left out.
     fn bodies(&mut self, wanted: &[Wanted<'a>], grid: &Grid, moment: f64) -> Result<Vec<Body>, Diagnostic> {
-        let (first, mut samples) = (self.subject, 0);
+        let (first, mut nothing) = (self.subject, None);
         let mut bodies = Vec::with_capacity(wanted.len());
         for one in wanted {
             // What is told meanwhile is told of that object.
@@ -127,8 +128,8 @@ impl<'a> Making<'a> {
                     let colours = one.paint.as_ref().map(|paint| self.colours(paint, &mesh, moment)).transpose()?;
                     bodies.push(Body { name: one.subject.name.to_string(), mesh, colours, tint: [255; 4], line });
                 }
-                (None, _, more) => {
-                    samples += more;
+                (None, _, report) => {
+                    nothing.get_or_insert(report);
                     if wanted.len() > 1 {
                         self.missing("this place");
                     }
@@ -136,7 +137,7 @@ impl<'a> Making<'a> {
             }
         }
         self.subject = first;
-        if bodies.is_empty() { Err(empty(first, Some(moment), Some(samples))) } else { Ok(bodies) }
+        if bodies.is_empty() { Err(empty(first, Some(moment), nothing.as_ref())) } else { Ok(bodies) }
     }
 
     /// The colour of each vertex.
@@ -204,22 +205,20 @@ impl<'a> Making<'a> {
     }
 
     /// The checked boundary; none if it is empty.
-    fn mesh(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Option<Mesh>, String, u64), Diagnostic> {
+    fn mesh(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Option<Mesh>, String, Report), Diagnostic> {
         let shape = self.subject.at(shape, moment);
         let extraction = extract(&shape, grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
-        let samples = extraction.report.samples;
-        self.undefined(&extraction.report.counters);
         if extraction.mesh.is_empty() {
-            return Ok((None, String::new(), samples));
+            return Ok((None, String::new(), extraction.report));
         }
+        self.say(told::of_report(self.subject, &extraction.report));
         let topology = check(&extraction.mesh).map_err(|fault| {
             Diagnostic::error("mesh-fault", format!("the mesh of `{}` has a fault: {fault}", self.subject.name))
                 .category(Category::Result)
                 .help("nothing was written; another --resolution usually avoids it")
         })?;
-        self.cut(&extraction);
         let line = mesh_line(&extraction, &topology);
-        Ok((Some(extraction.mesh), line, samples))
+        Ok((Some(extraction.mesh), line, extraction.report))
     }
 
     /// The bytes of a small picture, for the format that holds one.
@@ -256,7 +255,9 @@ impl<'a> Making<'a> {
             for (member, [r, g, b, _]) in members.iter().zip(&colours) {
                 let shape = self.subject.at(&member.shape, moment);
                 let found = outlines(&shape, &grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
-                self.undefined(&found.counters);
+                if !found.lines.is_empty() {
+                    self.say(told::of_report(self.subject, &found.report));
+                }
                 let colour = (!single && self.options.slices.is_none()).then_some([*r, *g, *b]);
                 slices.push(svg::Slice { marks: member.marks.clone(), loops: found.lines, colour });
             }
@@ -270,24 +271,6 @@ impl<'a> Making<'a> {
             self.put(n, &mut |out| svg::write(&slices, [x[0], y[0]], [x[1], y[1]], &name, &mut { out }))?;
         }
         Ok(())
-    }
-
-    fn cut(&mut self, extraction: &Extraction) {
-        let mut faces = Vec::new();
-        let asked = self.subject.cut;
-        for (k, (axis, sides)) in self.subject.axes.iter().zip(extraction.report.cut).enumerate() {
-            for (side, (cut, which)) in sides.into_iter().zip(["min", "max"]).enumerate() {
-                if cut && !asked[k][side] {
-                    faces.push(format!("{}{which} = {}", axis.coordinate, axis.range[side]));
-                }
-            }
-        }
-        if faces.is_empty() || self.written.notes.iter().any(|d| d.code == "cut-by-space") {
-            return;
-        }
-        let title = format!("the modelling space cuts `{}` at {}", self.subject.name, faces.join(", "));
-        let help = "the mesh is capped there; widen the space if the object was to be whole";
-        self.written.notes.push(Diagnostic::note("cut-by-space", title).help(help));
     }
 }
 

@@ -18,6 +18,7 @@ use crate::vm::{Demand, Shape};
 
 use super::output::{Format, Kind, Output, Target, numbered};
 use super::subject::Subject;
+use super::told::{self, empty};
 use super::{Background, Options, pictures};
 
 /// What was written, and what there is to say of it.
@@ -66,7 +67,8 @@ pub fn make(
     options: &Options,
     standard: &mut dyn Write,
 ) -> Result<Written, Diagnostic> {
-    let mut making = Making { shop, subject, output, options, standard, written: Written::default() };
+    let written = Written { notes: subject.notes.clone(), ..Written::default() };
+    let mut making = Making { shop, subject, output, options, standard, written };
     match output.format.kind() {
         Kind::Mesh => making.meshes()?,
         Kind::Picture => making.pictures()?,
@@ -92,6 +94,13 @@ impl Making<'_> {
         let moments = self.moments();
         let artist = pictures::Artist::new(self.shop, self.subject, self.options, &moments)?;
         self.written.notes.extend(artist.notes(self.options));
+        if self.subject.axes.len() == 3 {
+            let node = self.subject.levels.first().map_or(self.subject.node, |level| level.node);
+            let shape = self.subject.shape_of(node, self.shop.graph, Demand::Sign, self.shop.limits)?;
+            let shape = self.subject.at(&shape, moments[0]);
+            let cut = crate::surface::space::cut(&shape, &self.subject.bounds(), self.shop.interrupt);
+            self.say(told::cut(self.subject, &cut));
+        }
         for (n, moment) in moments.into_iter().enumerate() {
             let begun = Instant::now();
             let picture = artist.picture(moment, self.shop.interrupt)?;
@@ -250,51 +259,19 @@ impl Making<'_> {
         self.written.lines.push(format!("{frame}{what}, {:.0} ms", begun.elapsed().as_secs_f64() * 1e3));
     }
 
+    /// Adds what was not said before.
+    pub(super) fn say(&mut self, told: impl IntoIterator<Item = Diagnostic>) {
+        for diagnostic in told {
+            if !self.written.notes.iter().any(|said| said.code == diagnostic.code) {
+                self.written.notes.push(diagnostic);
+            }
+        }
+    }
+
     pub(super) fn undefined(&mut self, counters: &Counters) {
         self.shop.interrupt.count("points", counters.points);
         self.shop.interrupt.count("boxes", counters.boxes);
-        if counters.undefined == 0 || self.written.notes.iter().any(|d| d.code == "undefined-points") {
-            return;
-        }
-        let place: Vec<String> = counters.example.iter().flatten().map(|c| format!("{c:.6}")).collect();
-        let title = format!("`{}` is undefined at {} of the evaluated points", self.subject.name, counters.undefined);
-        let fact = format!("one of them is ({}); undefined points count as outside", place.join(", "));
-        let mut told = Diagnostic::warning("undefined-points", title).fact(fact);
-        if counters.regions.endless > 0 {
-            let (endless, limit) = (counters.regions.endless, self.shop.limits.point_turns);
-            told = told.fact(format!("{endless} times a loop took more than {limit} turns, and was given up"));
-            told = told.help("bound its turns: `WHILE (n < 100 AND ...) DO BEGIN ... n = n + 1; END`");
-        }
-        self.written.notes.push(told);
-    }
-}
-
-/// An object without a point: exit status 1, with what may be the reason.
-pub(super) fn empty(subject: &Subject, moment: Option<f64>, samples: Option<u64>) -> Diagnostic {
-    let name = &subject.name;
-    let when = match (&subject.time, moment) {
-        (Some(time), Some(moment)) => format!(" at {} = {moment}", time.coordinate),
-        _ => String::new(),
-    };
-    let space: Vec<String> =
-        subject.axes.iter().map(|a| format!("{} {} to {}", a.coordinate, a.range[0], a.range[1])).collect();
-    let title = if subject.levels.is_empty() {
-        format!("`{name}` is empty{when}: its function is nowhere >= 0 in the modelling space")
-    } else {
-        let levels: Vec<String> = subject.levels.iter().map(|level| level.value.to_string()).collect();
-        format!("`{name}` has no point of its levels {} in the modelling space{when}", levels.join(", "))
-    };
-    let mut diagnostic = Diagnostic::error("empty-object", title)
-        .category(Category::Result)
-        .fact(format!("the modelling space is {}", space.join(", ")))
-        .help("inside is where the function is >= 0: if it is written with inside negative, put `-` before it")
-        .help("if the object lies elsewhere or is smaller than a cell, give --bounds or a larger --resolution");
-    if let Some(samples) = samples {
-        diagnostic = diagnostic.fact(format!("{samples} sample points were decided"));
-    }
-    match subject.span {
-        Some(span) => diagnostic.at(span, "this object"),
-        None => diagnostic,
+        self.say(told::undefined(self.subject, counters));
     }
 }
 

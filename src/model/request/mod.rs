@@ -6,6 +6,7 @@ mod boundaries;
 mod charts;
 mod cuts;
 pub mod fields;
+mod info;
 mod make;
 pub mod measured;
 pub mod output;
@@ -13,21 +14,26 @@ pub mod paint;
 mod pictures;
 mod preview;
 mod solids;
+mod space;
 pub mod subject;
 mod together;
+mod told;
 
-pub(super) use ask::role;
-pub use ask::{Info, info, measure, sample, write};
-pub use fields::Sampled;
-pub use make::Written;
+pub use crate::vm::Precision;
+pub use ask::{measure, sample, sampling, write};
+pub use fields::{Sampled, Sampling};
+pub(super) use info::role;
+pub use info::{Info, info};
+pub use make::{Written, cancelled};
 pub use measured::Measured;
 pub use output::{FORMATS, Format, Kind, Output, Target};
 pub use paint::{colours_at, colours_of};
 pub use preview::{headline, preview};
+pub(super) use space::Searched;
 pub use subject::{Sequence, Subject};
 pub use together::subject;
 
-use crate::field::Coordinate;
+pub use crate::field::Coordinate;
 
 /// How finely a boundary is searched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,11 +57,20 @@ pub struct View {
     pub bounds: Vec<(Coordinate, f64, f64)>,
     /// Cells; 128 along the longest side unless told.
     pub cells: Cells,
+    /// The numbers that points are computed with.
+    pub precision: Precision,
 }
 
 impl Default for View {
     fn default() -> Self {
-        Self { object: None, beside: Vec::new(), at: Vec::new(), bounds: Vec::new(), cells: Cells::Along(128) }
+        Self {
+            object: None,
+            beside: Vec::new(),
+            at: Vec::new(),
+            bounds: Vec::new(),
+            cells: Cells::Along(128),
+            precision: Precision::Double,
+        }
     }
 }
 

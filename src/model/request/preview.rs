@@ -3,9 +3,10 @@
 use crate::diagnostic::Diagnostic;
 use crate::picture::Image;
 
-use super::make::{Workshop, empty};
+use super::make::Workshop;
 use super::pictures::{Artist, view};
 use super::subject::Subject;
+use super::told::empty;
 use super::{Background, Options, View, together};
 use crate::model::environment::Object;
 use crate::model::session::Session;

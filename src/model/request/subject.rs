@@ -9,7 +9,7 @@ use crate::picture::axes::number;
 use crate::source::Span;
 use crate::surface::grid::{Grid, GridError, MOST_CELLS};
 use crate::syntax::tree::Name;
-use crate::vm::{CompileError, Demand, Program, Shape};
+use crate::vm::{CompileError, Demand, Precision, Program, Shape};
 
 use super::Cells;
 
@@ -85,6 +85,10 @@ pub struct Subject {
     pub colour: Option<Sequence>,
     /// Levels whose boundaries are shown together, ascending. Empty: the one at 0.
     pub levels: Vec<Level>,
+    /// The numbers that points are computed with.
+    pub precision: Precision,
+    /// What there is to say of the modelling space, if it was found and not given.
+    pub notes: Vec<Diagnostic>,
     /// The colour that the program gives it.
     pub colouring: Option<Colour>,
     /// The faces of the space that are cuts: for each axis the lower and the upper one.
@@ -110,6 +114,8 @@ impl Subject {
             groups,
             colour: None,
             levels,
+            precision: Precision::Double,
+            notes: Vec::new(),
             colouring: None,
             cut: [[false; 2]; 3],
             beside: Vec::new(),
@@ -228,6 +234,12 @@ impl Subject {
         Ok(sections.iter().flat_map(of_section).collect())
     }
 
+    /// The coordinates of the axes, then the others: the inputs of its programs.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<Coordinate> {
+        self.axes.iter().map(|a| a.coordinate).chain(self.fixed.iter().map(|f| f.0)).collect()
+    }
+
     pub(super) fn shape_of(
         &self,
         node: NodeId,
@@ -235,10 +247,10 @@ impl Subject {
         demand: Demand,
         limits: &Limits,
     ) -> Result<Shape, Diagnostic> {
-        let inputs: Vec<Coordinate> =
-            self.axes.iter().map(|a| a.coordinate).chain(self.fixed.iter().map(|f| f.0)).collect();
-        let program = Program::compile(graph, node, &inputs, demand, limits).map_err(|e| self.not_compiled(e))?;
-        Ok(Shape::new(program, self.axes.len(), self.fixed.iter().map(|f| f.1).collect()))
+        let program =
+            Program::compile(graph, node, &self.inputs(), demand, limits).map_err(|e| self.not_compiled(e))?;
+        let shape = Shape::new(program, self.axes.len(), self.fixed.iter().map(|f| f.1).collect());
+        Ok(Shape { precision: self.precision, ..shape })
     }
 
     /// The same shape, sharing its program, at another place.

@@ -18,6 +18,7 @@ pub fn subject(session: &mut Session, view: &View, timing: &Timing) -> Result<Su
         let view = View { object: Some(name.clone()), beside: Vec::new(), ..view.clone() };
         let other = alone(session, &view, timing)?;
         if *other.name != *first.name && first.beside.iter().all(|known| known.name != other.name) {
+            first.notes.extend_from_slice(&other.notes);
             first.beside.push(other);
         }
     }

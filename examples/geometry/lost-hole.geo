@@ -1,0 +1,3 @@
+{ A bubble in a ball, smaller than a cell. }
+r_alpha = 1;
+gob_a = 9 - x1**2 - x2**2 - x3**2 \ 0.03**2 - (x1-0.41)**2 - (x2-0.37)**2 - (x3-0.23)**2;
