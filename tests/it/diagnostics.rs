@@ -1,5 +1,6 @@
 //! Golden texts of messages: of each kind of syntax error, in each rendering; and near names.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -13,6 +14,8 @@ use yont::limits::Limits;
 use yont::model::Session;
 use yont::source::{SourceMap, Span};
 use yont::syntax::{Mode, parse};
+
+use crate::cli::{folder, run};
 
 /// Each wrong program of `syntax.txt` (set apart by lines of `===`) with the messages that it gets. The file holds the
 /// programs and what is said of them; `UPDATE_EXPECT=1` writes the messages anew.
@@ -98,6 +101,100 @@ fn the_figure_as_printed_is_explained_in_one_run() {
     let told: Vec<_> =
         outcome.diagnostics.iter().map(|d| short(d, session.sources()) + "\n  help: " + &d.help.join("; ")).collect();
     expect_file!["diagnostics/as-printed.txt"].assert_eq(&(told.join("\n") + "\n"));
+}
+
+/// Each run of `requests.txt`: a name, the command line, the program on standard input, and what is said on standard error.
+/// `UPDATE_EXPECT=1` writes the messages anew.
+#[test]
+fn each_kind_of_message_about_a_run() {
+    let golden = include_str!("diagnostics/requests.txt");
+    let mut found = String::new();
+    for part in golden.split("=== ").skip(1) {
+        let (head, rest) = part.split_once("\n$ yont ").unwrap();
+        let (line, rest) = rest.split_once('\n').unwrap();
+        let program = rest.split("--- messages\n").next().unwrap();
+        let mut arguments: Vec<&str> = line.split_whitespace().collect();
+        if !arguments.contains(&"-") {
+            arguments.push("-");
+        }
+        let ran = run(folder(&[("p.tsv", b"1\n")]).path(), &arguments, program);
+        assert!(ran.err.contains('['), "{head}: nothing was said: {}", ran.err);
+        assert_eq!(ran.err.contains("error["), ran.status != Some(0), "{head}: {ran:?}");
+        found += &format!("=== {head}\n$ yont {line}\n{program}--- messages\n{}", ran.err);
+    }
+    expect_file!["diagnostics/requests.txt"].assert_eq(&found);
+}
+
+/// Codes without a golden text, and why.
+const WITHOUT: &[(&str, &str)] = &[
+    ("broken", "follows another error, and is told only at the prompt"),
+    ("excused", "is never shown: its cause is told instead"),
+    ("cancelled", "needs a key of the user; tests/it/interrupts.rs"),
+    ("command", "is of the prompt; tests/it/repl.rs"),
+    ("settings", "is of a file of the user; tests/it/cli.rs"),
+    ("cell-length", "is refused by the command line first"),
+    ("view", "is refused by the command line first"),
+    ("mesh-fault", "would be a fault of the program"),
+    ("no-mesh", "would be a fault of the program"),
+    ("not-measured", "would be a fault of the program"),
+    ("too-complex", "would be a fault of the parser"),
+    ("too-large", "needs a program of millions of operations"),
+    ("too-many-nodes", "needs millions of operations; tests/it/limits.rs"),
+    ("array-too-large", "needs millions of elements; tests/it/limits.rs"),
+    ("source-too-large", "needs a text of megabytes; tests/it/limits.rs"),
+    ("nested-too-deep", "needs a thousand brackets; tests/it/limits.rs"),
+    ("not-a-text", "needs bytes that no text has"),
+    ("more-errors", "needs fifty errors; tests/it/limits.rs"),
+    ("too-many-includes", "needs as many files"),
+    ("not-an-expression", "answers a request of the prompt"),
+    ("coordinate-twice", "behind mapped-twice, which the parser tells first"),
+    ("too-many-choices", "needs an array of many thousands"),
+    ("too-many-variables", "needs as many derivatives within each other as there are spare coordinates"),
+    ("space-guessed", "needs an object that takes all the work of a search; tests/it/limits.rs"),
+    ("no-setting", "answers `:set` at the prompt"),
+    ("palette", "is refused by the command line first"),
+    ("not-written", "needs a disk that fails"),
+    ("too-deep", "needs a tree deeper than calls may be; tests/it/limits.rs"),
+];
+
+/// The codes of a source: the text that is the first argument of what makes a diagnostic.
+fn codes(source: &str) -> BTreeSet<String> {
+    let makers = ["error(", "warning(", "note(", "usage("];
+    let behind = |maker: &str| source.match_indices(maker).map(|(at, _)| at + maker.len()).collect::<Vec<_>>();
+    let quoted = |at: usize| {
+        let text = source[at..].trim_start().strip_prefix('"')?;
+        let code = &text[..text.find('"')?];
+        let plain = !code.is_empty() && code.chars().all(|c| c == '-' || c.is_ascii_lowercase());
+        plain.then(|| code.to_owned())
+    };
+    makers.iter().flat_map(|maker| behind(maker)).filter_map(quoted).collect()
+}
+
+#[test]
+fn each_code_has_a_golden_text() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders = vec![root.join("src")];
+    let mut all = BTreeSet::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                all.append(&mut codes(&std::fs::read_to_string(path).unwrap()));
+            }
+        }
+    }
+    assert!(all.len() > 100, "{all:?}");
+    let golden = ["syntax", "errors", "geometry", "requests"]
+        .map(|name| std::fs::read_to_string(root.join(format!("tests/it/diagnostics/{name}.txt"))).unwrap())
+        .concat();
+    let has = |code: &str| golden.contains(&format!("[{code}]"));
+    let without: Vec<_> =
+        all.iter().filter(|code| !has(code) && WITHOUT.iter().all(|(name, _)| name != code)).collect();
+    assert!(without.is_empty(), "no golden text shows {without:?}");
+    let stale: Vec<_> = WITHOUT.iter().filter(|(code, _)| has(code) || !all.contains(*code)).collect();
+    assert!(stale.is_empty(), "no exceptions any more: {stale:?}");
 }
 
 fn sample() -> (SourceMap, Diagnostic) {

@@ -6,7 +6,7 @@ use yont::host::{Host, Memory};
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::model::Session;
-use yont::model::request::{self, Cells, Options, Output};
+use yont::model::request::{self, Cells, Options, Output, Timing, View};
 use yont::syntax::Mode;
 
 /// A volume of four samples.
@@ -222,4 +222,55 @@ fn a_sum_of_a_million_terms_works() {
     let limits = Limits { source_bytes: 1_000_000, ..Limits::default() };
     let refused = errors(limits, &program);
     assert!(refused.first().is_some_and(|said| said.contains("1000000")), "{refused:?}");
+}
+
+/// A loop whose turns differ from point to point, at the number of turns that a point may take and one beyond.
+#[test]
+fn a_point_takes_so_many_turns_and_is_undefined_beyond() {
+    let values = |point_turns| {
+        let limits = Limits { point_turns, ..Limits::default() };
+        let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
+        let program = "n = 0; WHILE (n < x1) DO n = n + 1; gob_a = n;";
+        assert!(session.input("limits.geo", program, Mode::Script).accepted);
+        let points = [vec![30.0], vec![31.0]];
+        let sampled = request::sample(&mut session, &View::default(), &points, false).expect("values");
+        sampled.iter().map(|sample| sample.value).collect::<Vec<f64>>()
+    };
+    for n in [30, 31] {
+        let found = values(n);
+        assert_eq!(found[0], 30.0, "{n} turns");
+        assert!(if n == 30 { found[1].is_nan() } else { found[1] == 31.0 }, "{n} turns: {found:?}");
+    }
+}
+
+/// A search that looks into too few pieces misses a peak, and with a piece more it finds it.
+#[test]
+fn a_section_is_looked_at_in_so_many_pieces() {
+    let highest = |section_pieces| {
+        let limits = Limits { section_pieces, ..Limits::default() };
+        let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
+        let program = "gob_a = PROJECT(EXP(-(3000*(x4 - x1))**2) + 0.1*SIN(x4), x4, -3, 3);";
+        assert!(session.input("limits.geo", program, Mode::Script).accepted);
+        request::sample(&mut session, &View::default(), &[vec![0.7]], false).expect("a value")[0].value
+    };
+    let peak = 1.0 + 0.1 * 0.7_f64.sin();
+    let finds = |n: usize| (highest(n) - peak).abs() < 1e-3;
+    let enough = least(0, Limits::default().section_pieces, finds);
+    assert!(enough > 0 && finds(enough) && !finds(enough - 1), "{enough}");
+}
+
+/// The space of an object is proved with so much work, and a guess with less.
+#[test]
+fn a_space_is_sought_with_so_much_work() {
+    let code = |search_operations| {
+        let limits = Limits { search_operations, ..Limits::default() };
+        let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
+        assert!(session.input("limits.geo", "gob_a = 1 - x1**2 - x2**2;", Mode::Script).accepted);
+        let subject = request::subject(&mut session, &View::default(), &Timing::default()).expect("a space");
+        subject.notes[0].code
+    };
+    let proves = |n: usize| code(n) == "space-found";
+    let enough = least(1, Limits::default().search_operations, proves);
+    assert!(enough > 100 && proves(enough), "{enough}");
+    assert_eq!(code(enough - 1), "space-guessed");
 }

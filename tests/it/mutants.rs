@@ -88,6 +88,8 @@ fn made(trial: &Trial) -> bool {
         memory_bytes: 64 << 20,
         data_bytes: 16 << 20,
         frames: 6,
+        // A space that nobody gave is sought among all coordinates, with as much work as is allowed.
+        search_operations: 3_000_000,
         picture_side: 64,
         ..Limits::default()
     };

@@ -11,6 +11,10 @@ use crate::number::Interval;
 use crate::vm::interval::Boxes;
 use crate::vm::{Points, Program};
 
+/// Planes in which a point inside is looked for beyond those known, and steps in each: enough to halve a gap, and a step, down to rounding.
+const PRESSES: usize = 24;
+const STEPS: usize = 60;
+
 /// A box that may hold some of the object.
 struct Candidate {
     /// How far it reaches in the direction of the search.
@@ -249,6 +253,9 @@ impl<'a> Search<'a> {
             };
             if is_near || top.reach <= known || (self.spent > most && top.reach.is_finite()) {
                 self.probe(&top.sides);
+                if let Stop::Within(length) = stop {
+                    self.press(&top.sides, (axis, up), length)?;
+                }
                 return Ok(Climb::Reach(sign * top.reach.max(known)));
             }
             if self.spent > most {
@@ -413,6 +420,64 @@ impl<'a> Search<'a> {
             let point: Vec<f64> = columns.iter().map(|column| column[i]).collect();
             self.learn(value, &point);
         }
+    }
+
+    /// Brings the points that are known to be inside nearer to an end that boxes alone did not reach closely: in planes across the axis,
+    /// between the farthest point and the farthest box, it looks for a point inside by going up from the middle of that box.
+    fn press(&mut self, sides: &[[f64; 2]], (axis, up): (usize, bool), length: f64) -> Result<(), Cancelled> {
+        let sign = if up { 1.0 } else { -1.0 };
+        let Some(inner) = &self.inner else { return Ok(()) };
+        let (mut known, mut far) = (sign * inner[axis][usize::from(up)], sign * sides[axis][usize::from(up)]);
+        let mut point: Vec<f64> = sides.iter().map(|side| middle(*side)).collect();
+        for _ in 0..PRESSES {
+            if far - known <= length {
+                break;
+            }
+            self.interrupt.tick()?;
+            let at = 0.5 * known + 0.5 * far;
+            point[axis] = sign * at;
+            if self.ascend(&mut point, axis) { known = at } else { far = at }
+        }
+        Ok(())
+    }
+
+    /// Moves a point across the axis to higher values, with ever shorter steps, until it is inside. Whether it is.
+    fn ascend(&mut self, point: &mut Vec<f64>, across: usize) -> bool {
+        let moving: Vec<usize> = (0..point.len()).filter(|&k| k != across && width(self.outer[k]) > 0.0).collect();
+        let program = Arc::clone(&self.program);
+        let mut best = f64::NEG_INFINITY;
+        let mut step = 1.0 / 64.0;
+        for _ in 0..STEPS {
+            let mut places = vec![point.clone()];
+            for &k in &moving {
+                for way in [-step, step] {
+                    let mut place = point.clone();
+                    let [lo, hi] = self.outer[k];
+                    place[k] = (place[k] + way * (hi - lo)).clamp(lo, hi);
+                    places.push(place);
+                }
+            }
+            let columns: Vec<Vec<f64>> = (0..point.len()).map(|k| places.iter().map(|p| p[k]).collect()).collect();
+            let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+            let mut values = vec![0.0; places.len()];
+            self.points.eval(&program, &slices, &mut values);
+            self.spent += BOX * program.len() as u64;
+            let top =
+                (0..values.len()).filter(|&i| !values[i].is_nan()).max_by(|&i, &j| values[i].total_cmp(&values[j]));
+            let Some(top) = top else { return false };
+            self.learn(values[top], &places[top]);
+            let is_better = values[top] > best;
+            best = best.max(values[top]);
+            point.clone_from(&places[top]);
+            if best >= 0.0 {
+                return true;
+            }
+            // The point itself is the first of its neighbours, so that no step up leaves it where it is.
+            if top == 0 || !is_better {
+                step *= 0.5;
+            }
+        }
+        false
     }
 
     pub(super) fn learn(&mut self, value: f64, point: &[f64]) {

@@ -33,6 +33,13 @@ pub fn misplaced_to(span: Span, callee: &Ident) -> Diagnostic {
         .help("the folds do: SUM(i = 1 TO n, ...), PRODUCT, UNION, INTERSECTION, MINIMUM, MAXIMUM, ARRAY")
 }
 
+/// `f AT (x1 = 1 TO 2)`, `SUM(i = 1 TO 2, a TO b)`
+pub fn stray_to(span: Span) -> Diagnostic {
+    Diagnostic::error("misplaced-to", "`TO` stands only behind the index of a fold or of FOR")
+        .at(span, "")
+        .help("write SUM(i = 1 TO n, ...) or FOR i = 1 TO n DO ...; here one expression is expected")
+}
+
 /// `SUM(i = 1 TO 3)`
 pub fn fold_form(callee: &Ident, span: Span) -> Diagnostic {
     Diagnostic::error("fold-form", format!("`{}` over an index needs the index and one expression", callee.name))

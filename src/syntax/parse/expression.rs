@@ -191,8 +191,12 @@ impl<'t> Builder<'t> {
         let range = parts.remove(place);
         let span = self.span(&range);
         let mut rest: Vec<_> = parts.into_iter().map(|p| self.argument(p)).collect();
-        let Some((op, (index, from, to))) = fold_op(&callee.name).zip(self.fold_range(range)) else {
-            self.error(explain::misplaced_to(span, &callee));
+        let op = fold_op(&callee.name);
+        let Some((op, (index, from, to))) = op.zip(self.fold_range(range)) else {
+            self.error(match op {
+                Some(_) => explain::fold_form(&callee, span),
+                None => explain::misplaced_to(span, &callee),
+            });
             return ExprKind::Call { callee, arguments: rest };
         };
         match rest.pop() {
@@ -221,6 +225,10 @@ impl<'t> Builder<'t> {
     /// `e`, or `name = e`: a setting, but a comparison if what follows the `=` compares or joins on. `x4 = e` always sets.
     fn argument(&mut self, pair: P<'t>) -> Expr {
         let mut inner = pair.into_inner();
+        if let Some(to) = inner.clone().find(|p| p.as_rule() == Rule::kw_to) {
+            let span = self.span(&to);
+            self.error(explain::stray_to(span));
+        }
         if inner.peek().is_some_and(|p| p.as_rule() == Rule::expr) {
             return self.next_expr(&mut inner);
         }

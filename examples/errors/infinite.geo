@@ -1,0 +1,2 @@
+{ A value beyond all numbers. }
+a = EXP(1000);

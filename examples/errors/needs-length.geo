@@ -1,0 +1,2 @@
+{ A product of vectors in space. }
+a = CROSS([1, 2], [3, 4]);

@@ -1,0 +1,2 @@
+{ A text has no sum. }
+a = "a" + 1;

@@ -1,0 +1,2 @@
+{ The gradient of what depends on no coordinate. }
+a = GRAD(3);

@@ -1,0 +1,3 @@
+{ A number has no elements. }
+a = 3;
+b = a[1];

@@ -1,0 +1,2 @@
+{ A text is no element. }
+a = ["one", 2];

@@ -1,0 +1,2 @@
+{ Only some functions take settings. }
+a = SIN(y = 2);

@@ -1,0 +1,2 @@
+{ The system of R-functions is one number. }
+r_alpha(p) = p;
