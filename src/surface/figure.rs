@@ -48,7 +48,8 @@ pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
     }
     let is_smooth = !has_corners(&all[0].2);
     // Corners may lie alike between the sample points of all three grids, so that the differences do not tell what they lose.
-    let [lost_length, lost] = all[0].2.lines.iter().map(|line| lost(line)).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+    let [lost_length, lost] =
+        all[0].2.lines.iter().map(|line| lost(line)).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
     let size = (0..2).map(|d| grid.hi[d] - grid.lo[d]).fold(0.0, f64::max);
     let estimate = |part: &dyn Fn(&Moments) -> f64, scale: f64| {
         let values = [0, 1, 2].map(|level| all.get(level).map(|(moments, ..)| part(moments)));

@@ -155,11 +155,15 @@ pub(super) fn unseen(
         .zip(found)
         .map(|(axis, [[lo, _], [_, hi]])| format!("{} {} to {}", axis.coordinate, plain(*lo), plain(*hi)))
         .collect();
-    let told = Diagnostic::error("empty-object", match report {
-        Some(_) => format!("no sample point is inside `{name}`, which is smaller than a cell"),
-        None => format!("nothing of `{name}` is seen in this picture"),
-    });
-    let told = told.category(Category::Result).fact(space(subject)).fact(format!("it lies within {}", reaches.join(", ")));
+    let told = Diagnostic::error(
+        "empty-object",
+        match report {
+            Some(_) => format!("no sample point is inside `{name}`, which is smaller than a cell"),
+            None => format!("nothing of `{name}` is seen in this picture"),
+        },
+    );
+    let told =
+        told.category(Category::Result).fact(space(subject)).fact(format!("it lies within {}", reaches.join(", ")));
     here(
         match report {
             Some(_) => told.help("give a larger --resolution, or --bounds about it"),
