@@ -106,6 +106,8 @@ impl Kind for Doubles {
 }
 
 impl Pointwise for Doubles {
+    const STEADY: bool = true;
+
     fn number(item: Self::Item) -> f64 {
         item
     }
@@ -166,6 +168,8 @@ impl Kind for Singles {
 }
 
 impl Pointwise for Singles {
+    const STEADY: bool = true;
+
     fn number(item: Self::Item) -> f64 {
         f64::from(item)
     }

@@ -198,8 +198,8 @@ pub(crate) fn extreme_of(op: Ternary, parameter: Option<f64>) -> Option<Binary> 
     }
 }
 
-/// A region with its arguments.
-type Applied = (SharedRegion, Arc<[NodeId]>);
+/// A region with its arguments, and whether only the sign of its first output is wanted.
+type Applied = (SharedRegion, Arc<[NodeId]>, bool);
 
 struct Emitter<'a> {
     graph: &'a Graph,
@@ -213,8 +213,8 @@ struct Emitter<'a> {
     limits: &'a Limits,
     regions: Vec<Arc<RegionProgram>>,
     /// Compiled regions, whatever their arguments.
-    compiled: FxHashMap<SharedRegion, Arc<RegionProgram>>,
-    /// The number of each region with its arguments, and its value.
+    compiled: FxHashMap<(SharedRegion, bool), Arc<RegionProgram>>,
+    /// The number of each region with its arguments, and its value; apart where only its sign is wanted.
     running: FxHashMap<Applied, (u32, Value)>,
 }
 
@@ -264,7 +264,8 @@ impl<'a> Emitter<'a> {
             Node::Ternary(op, [a, b, c]) => self.ternary(*op, [*a, *b, *c], node),
             Node::Leaf(leaf, arguments) => self.leaf(leaf, arguments),
             Node::Region(region, output, arguments) => {
-                let (number, value) = self.region(region, arguments)?;
+                let sign = *output == 0 && self.side(node).is_some();
+                let (number, value) = self.region((region.clone(), arguments.clone(), sign))?;
                 if *output == 0 {
                     self.values[node.index()] = value;
                     return Ok(());
@@ -278,15 +279,17 @@ impl<'a> Emitter<'a> {
     }
 
     /// Runs a region with its arguments, once however many of its outputs are read: its number and its first output.
-    fn region(&mut self, region: &SharedRegion, arguments: &Arc<[NodeId]>) -> Result<(u32, Value), CompileError> {
-        if let Some(known) = self.running.get(&(region.clone(), arguments.clone())) {
+    fn region(&mut self, applied: Applied) -> Result<(u32, Value), CompileError> {
+        if let Some(known) = self.running.get(&applied) {
             return Ok(*known);
         }
-        let program = match self.compiled.get(region) {
+        let (region, arguments, sign) = &applied;
+        let kind = (region.clone(), *sign);
+        let program = match self.compiled.get(&kind) {
             Some(program) => program.clone(),
             None => {
-                let program = Arc::new(RegionProgram::compile(&region.0, self.limits)?);
-                self.compiled.insert(region.clone(), program.clone());
+                let program = Arc::new(RegionProgram::compile(&region.0, *sign, self.limits)?);
+                self.compiled.insert(kind, program.clone());
                 program
             }
         };
@@ -298,7 +301,7 @@ impl<'a> Emitter<'a> {
             before = Some(self.push(Op::Give(number, place, argument, before.unwrap_or(argument))));
         }
         let value = self.push(Op::Region(number, before.unwrap_or(0)));
-        self.running.insert((region.clone(), arguments.clone()), (number, value));
+        self.running.insert(applied, (number, value));
         Ok((number, value))
     }
 

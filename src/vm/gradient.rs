@@ -75,6 +75,8 @@ impl Kind for Duals {
 }
 
 impl Pointwise for Duals {
+    const STEADY: bool = false;
+
     fn number(item: Self::Item) -> f64 {
         item.value
     }

@@ -1,7 +1,8 @@
 //! The highest value of a function in a closed ball of two or more dimensions, and bounds of it.
 //!
-//! A pattern search from the best of many starts: from where it is, it looks in many directions, at two distances, and goes on
-//! with the highest; where there is none it looks nearer by. What lies beyond the ball is drawn to its boundary.
+//! A search from the best of many starts: from where it is, it looks along the gradient and in many directions, at two distances, and
+//! goes on with the highest; where there is none it looks nearer by, until the gradient says that it is on top. What lies beyond the
+//! ball is drawn to its boundary. Ranges over parts of the ball tell which starts cannot win.
 
 use super::AT_ONCE;
 use crate::number::{Binary, Interval};
@@ -12,7 +13,12 @@ pub trait Ball {
     fn values(&mut self, steps: &[Vec<f64>], values: &mut [f64]);
     /// Ranges of the values over these steps, one slice per variable, of at most [`AT_ONCE`] intervals.
     fn ranges(&mut self, steps: &[Vec<Interval>], values: &mut [Interval]);
+    /// The gradient at a step from the centre, for as many variables as there are, at most [`GRADIENT`].
+    fn gradient(&mut self, step: &[f64]) -> [f64; GRADIENT];
 }
+
+/// Variables at most for which the search asks for gradients.
+pub const GRADIENT: usize = 3;
 
 /// Starts from which the search goes on.
 const CLIMBS: usize = 3;
@@ -21,11 +27,38 @@ const APART: f64 = 0.9;
 /// Looks of one climb at most.
 const LOOKS: usize = 200;
 /// Parts of the radius at which a climb ends.
-const NEAREST: f64 = 1e-10;
+const NEAREST: f64 = 1e-9;
+/// Distances along the gradient to look at, in parts of the radius; the last one leads to where the boundary faces the gradient.
+const STRIDES: [f64; 7] = [0.01, 0.05, 0.2, 0.5, 1.0, 3.0, 1e6];
+/// Parts of the gradient that may be left along the boundary where a climb is on top; the value is known to the square of it.
+const LEVEL: f64 = 1e-8;
+
+/// Where to look in a ball of so many dimensions: made once, used for each ball.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// At most [`AT_ONCE`] unit vectors.
+    directions: Vec<Vec<f64>>,
+    /// Cells of the unit ball, at most [`AT_ONCE`], one column per variable.
+    cells: Vec<Vec<Interval>>,
+}
+
+impl Plan {
+    /// The plan for balls of a dimension.
+    #[must_use]
+    pub fn new(dimension: usize) -> Self {
+        let mut cut = 1_usize;
+        while (cut + 1).saturating_pow(u32::try_from(dimension).unwrap_or(u32::MAX)) <= AT_ONCE {
+            cut += 1;
+        }
+        let cells = pieces(&vec![Interval::new(-1.0, 1.0); dimension], cut);
+        let cells: Vec<_> = cells.into_iter().filter(|cell| touches(cell, 1.0)).collect();
+        let column = |axis: usize| cells.iter().map(|cell| cell[axis]).collect();
+        Self { directions: directions(dimension), cells: (0..dimension).map(column).collect() }
+    }
+}
 
 /// Directions to look in: at most [`AT_ONCE`] unit vectors, evenly spread in two and three dimensions.
-#[must_use]
-pub fn directions(dimension: usize) -> Vec<Vec<f64>> {
+fn directions(dimension: usize) -> Vec<Vec<f64>> {
     let mut all: Vec<Vec<f64>> = Vec::new();
     let unit = |v: Vec<f64>| {
         let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -116,8 +149,9 @@ impl Places {
     }
 }
 
-/// The steps from the centre to where the function is highest in the ball; NaN where the radius is undefined or infinite.
-pub fn highest<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: f64, directions: &[Vec<f64>]) -> Vec<f64> {
+/// The steps from the centre to where the function is highest in the ball; NaN where the radius is undefined or infinite. If only the
+/// `sign` of the highest value matters, any steps to a value of that sign.
+pub fn highest<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: f64, plan: &Plan, sign: bool) -> Vec<f64> {
     if !radius.is_finite() {
         return vec![f64::NAN; dimension];
     }
@@ -128,13 +162,20 @@ pub fn highest<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: f64, di
     let mut starts = Places::new(dimension);
     starts.add(&centre, 0.0, &centre, f64::INFINITY);
     for scale in [radius, 0.5 * radius] {
-        directions.iter().for_each(|d| starts.add(&centre, scale, d, f64::INFINITY));
+        plan.directions.iter().for_each(|d| starts.add(&centre, scale, d, f64::INFINITY));
     }
     starts.ask(ball);
     let mut order: Vec<usize> = (0..starts.values.len()).filter(|i| !starts.values[*i].is_nan()).collect();
     order.sort_by(|&i, &j| starts.values[j].total_cmp(&starts.values[i]).then(i.cmp(&j)));
     let Some(&first) = order.first() else { return centre };
     let (mut best, mut top) = (starts.get(first), starts.values[first]);
+    if sign && top > 0.0 {
+        return best;
+    }
+    let cells = Cells::new(ball, radius, plan);
+    if sign && !cells.reach(0.0) {
+        return best;
+    }
     let mut climbed: Vec<Vec<f64>> = Vec::new();
     let mut looks = Places::new(dimension);
     for &i in &order {
@@ -142,10 +183,10 @@ pub fn highest<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: f64, di
         let near = |other: &Vec<f64>| {
             other.iter().zip(&start).map(|(a, b)| (a - b) * (a - b)).sum::<f64>() < APART * APART * radius * radius
         };
-        if climbed.iter().any(near) {
+        if climbed.iter().any(near) || (!climbed.is_empty() && !cells.reach_near(top, &start, 0.5 * APART * radius)) {
             continue;
         }
-        let (at, value) = climb(ball, radius, directions, (start.clone(), starts.values[i]), &mut looks);
+        let (at, value) = climb(ball, radius, &plan.directions, (start.clone(), starts.values[i]), &mut looks);
         if value > top {
             (best, top) = (at, value);
         }
@@ -157,6 +198,40 @@ pub fn highest<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: f64, di
     best
 }
 
+/// Ranges over the cells of a ball.
+struct Cells {
+    columns: Vec<Vec<Interval>>,
+    values: [Interval; AT_ONCE],
+    count: usize,
+}
+
+impl Cells {
+    fn new<B: Ball + ?Sized>(ball: &mut B, radius: f64, plan: &Plan) -> Self {
+        // Drawing to the boundary may leave the ball by rounding.
+        let reach = radius * (1.0 + 1e-15);
+        let scaled = |side: &Interval| Interval::new(side.lo * reach, side.hi * reach);
+        let columns: Vec<Vec<Interval>> = plan.cells.iter().map(|column| column.iter().map(scaled).collect()).collect();
+        let count = columns.first().map_or(0, Vec::len);
+        let mut values = [Interval::EMPTY; AT_ONCE];
+        ball.ranges(&columns, &mut values[..count]);
+        Self { columns, values, count }
+    }
+
+    /// Whether a value may be at least `least`.
+    fn reach(&self, least: f64) -> bool {
+        self.values[..self.count].iter().any(|value| !value.is_empty() && value.hi >= least)
+    }
+
+    /// Whether a value may be above `least` within a distance of a place, or of a cell that is.
+    fn reach_near(&self, least: f64, place: &[f64], distance: f64) -> bool {
+        (0..self.count).filter(|i| !self.values[*i].is_empty() && self.values[*i].hi > least).any(|i| {
+            let off = |(column, x): (&Vec<Interval>, &f64)| (column[i].lo - x).max(x - column[i].hi).max(0.0);
+            let square: f64 = self.columns.iter().zip(place).map(off).map(|off| off * off).sum();
+            square <= distance * distance
+        })
+    }
+}
+
 fn climb<B: Ball + ?Sized>(
     ball: &mut B,
     radius: f64,
@@ -165,10 +240,18 @@ fn climb<B: Ball + ?Sized>(
     looks: &mut Places,
 ) -> (Vec<f64>, f64) {
     let mut reach = 0.25 * radius;
+    let sloped = at.len() <= GRADIENT;
+    let mut slope = None;
     for _ in 0..LOOKS {
+        if sloped && slope.is_none() {
+            slope = Some(Slope::new(ball.gradient(&at), at.len()));
+        }
         looks.clear();
         for scale in [reach, 0.3 * reach] {
             directions.iter().for_each(|d| looks.add(&at, scale, d, radius));
+        }
+        if let Some(Slope { ahead: Some(ahead), .. }) = &slope {
+            STRIDES.iter().for_each(|stride| looks.add(&at, stride * radius, ahead, radius));
         }
         looks.ask(ball);
         let mut found = None;
@@ -181,10 +264,12 @@ fn climb<B: Ball + ?Sized>(
         match found {
             Some(i) => {
                 at = looks.get(i);
-                if i >= directions.len() {
+                slope = None;
+                if i >= directions.len() && i < 2 * directions.len() {
                     reach *= 0.6;
                 }
             }
+            None if slope.as_ref().is_some_and(|slope| slope.is_level(&at, value, radius)) => break,
             None => reach *= 0.1,
         }
         if reach < NEAREST * radius {
@@ -194,13 +279,36 @@ fn climb<B: Ball + ?Sized>(
     (at, value)
 }
 
+/// The gradient at a place.
+struct Slope {
+    length: f64,
+    /// The unit vector along it.
+    ahead: Option<Vec<f64>>,
+}
+
+impl Slope {
+    fn new(gradient: [f64; GRADIENT], dimension: usize) -> Self {
+        let gradient = &gradient[..dimension];
+        let length = gradient.iter().map(|g| g * g).sum::<f64>().sqrt();
+        let known = length.is_finite() && length > 0.0;
+        Self { length, ahead: known.then(|| gradient.iter().map(|g| g / length).collect()) }
+    }
+
+    /// Whether nothing is to be gained by it: it leads out of the ball, or vanishes.
+    fn is_level(&self, at: &[f64], value: f64, radius: f64) -> bool {
+        let Some(ahead) = &self.ahead else { return self.length == 0.0 };
+        if self.length * radius <= LEVEL * value.abs() {
+            return true;
+        }
+        let from = at.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let outward: f64 = ahead.iter().zip(at).map(|(a, x)| a * x / from).sum();
+        let along: f64 = ahead.iter().zip(at).map(|(a, x)| (a - outward * x / from).powi(2)).sum();
+        from >= radius * (1.0 - LEVEL) && outward > 0.0 && along <= LEVEL * LEVEL
+    }
+}
+
 /// Over a box of centres: the range of the highest value, and of the steps to it.
-pub fn bounds<B: Ball + ?Sized>(
-    ball: &mut B,
-    dimension: usize,
-    radius: Interval,
-    directions: &[Vec<f64>],
-) -> (Interval, Interval) {
+pub fn bounds<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: Interval, plan: &Plan) -> (Interval, Interval) {
     if radius.is_empty() {
         return (Interval::EMPTY, Interval::EMPTY);
     }
@@ -214,7 +322,7 @@ pub fn bounds<B: Ball + ?Sized>(
     let radius_or_none = radius.clip(0.0, f64::INFINITY);
     let radius_or_none = if radius_or_none.is_empty() { Interval::point(0.0) } else { radius_or_none };
     // Below: it is no less than at each start of the search.
-    let rows: Vec<&Vec<f64>> = directions.iter().take(AT_ONCE - 1).collect();
+    let rows: Vec<&Vec<f64>> = plan.directions.iter().take(AT_ONCE - 1).collect();
     let starts: Vec<Vec<Interval>> = (0..dimension)
         .map(|k| {
             let moved = rows.iter().map(|d| Binary::Mul.interval(radius_or_none, Interval::point(d[k])));

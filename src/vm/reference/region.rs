@@ -3,7 +3,7 @@
 use super::{Meaning, eval_all};
 use crate::field::{Bound, Coordinate, Form, Guard, NodeId, Region};
 use crate::limits::Limits;
-use crate::number::extremum::ball::{self, Ball};
+use crate::number::extremum::ball::{self, Ball, GRADIENT, Plan};
 use crate::number::extremum::section::{self, Section};
 use crate::number::turns::Turns;
 use crate::number::{Binary, Dual, Duals, Interval, Intervals, Reals};
@@ -60,7 +60,7 @@ pub fn at_a_point<M: Meaning>(
             let still = plain[dimension + 1..].to_vec();
             let centre = plain[..*dimension].iter().map(|c| Interval { lo: *c, hi: *c, undefined: false }).collect();
             let mut walk = Walk { region, still, centre, continuous: false };
-            let steps = ball::highest(&mut walk, *dimension, r, &ball::directions(*dimension));
+            let steps = ball::highest(&mut walk, *dimension, r, &Plan::new(*dimension), false);
             let length = steps.iter().fold(0.0, |all, x| Binary::Hypot.real(all, *x));
             let rim = r > 0.0 && length >= r * (1.0 - 1e-9);
             let step = |meaning: &mut M, x: f64| match rim {
@@ -91,7 +91,7 @@ pub fn over_a_box(region: &Region, arguments: &[Interval]) -> Vec<Interval> {
         Form::Ball { dimension, .. } => {
             let (centre, rest) = arguments.split_at(*dimension);
             let mut walk = Boxes { region, still: &rest[1..], centre, continuous: false };
-            let (value, step) = ball::bounds(&mut walk, *dimension, rest[0], &ball::directions(*dimension));
+            let (value, step) = ball::bounds(&mut walk, *dimension, rest[0], &Plan::new(*dimension));
             std::iter::once(value).chain(std::iter::repeat_n(step, *dimension)).collect()
         }
     }
@@ -172,6 +172,13 @@ impl Ball for Walk<'_> {
         let still = self.points();
         Ball::ranges(&mut self.boxes(&still), steps, values);
     }
+
+    fn gradient(&mut self, step: &[f64]) -> [f64; GRADIENT] {
+        let at = self.centre.iter().zip(step).enumerate();
+        let mut parameters: Vec<_> = at.map(|(axis, (c, s))| Dual::<GRADIENT>::variable(c.lo + s, axis)).collect();
+        parameters.extend(self.still.iter().map(|v| Dual::constant(*v)));
+        roots(&mut Duals::<GRADIENT>, self.region, &self.region.form().roots(), &parameters)[0].slope
+    }
 }
 
 /// The same over a box.
@@ -212,5 +219,9 @@ impl Ball for Boxes<'_> {
             let parameters: Vec<Interval> = moved.chain(self.still.iter().copied()).collect();
             *value = roots(&mut Intervals, self.region, &self.region.form().roots(), &parameters)[0];
         }
+    }
+
+    fn gradient(&mut self, _: &[f64]) -> [f64; GRADIENT] {
+        [f64::NAN; GRADIENT]
     }
 }

@@ -10,7 +10,7 @@ use super::program::{Demand, Program, Value};
 use crate::field::{Bound, Coordinate, Form, NodeId, Region};
 use crate::limits::Limits;
 use crate::number::Interval;
-use crate::number::extremum::ball::directions;
+use crate::number::extremum::ball::Plan;
 use crate::number::turns::Turns;
 use search::Probe;
 
@@ -39,6 +39,9 @@ impl Counts {
 
 /// Kinds of number that stand for one point, with or without derivatives.
 pub(crate) trait Pointwise: Kind {
+    /// Whether it has no derivatives.
+    const STEADY: bool;
+
     /// The value as a double.
     fn number(item: Self::Item) -> f64;
     /// A number that moves as `by` times another one does.
@@ -73,16 +76,16 @@ enum Work {
     Loop { body: Body, states: usize, guards: Vec<Option<(usize, Interval)>>, limit: usize },
     /// The value; the value and its derivative.
     Section { body: Body, both: Body, continuous: bool, budget: usize },
-    /// The value, over so many parameters that move.
-    Ball { body: Body, dimension: usize, directions: Vec<Vec<f64>> },
+    /// The value, over so many parameters that move; whether only its sign is wanted at points.
+    Ball { body: Body, dimension: usize, plan: Plan, sign: bool },
 }
 
 impl RegionProgram {
-    /// The program of a region.
+    /// The program of a region. If only the `sign` of its first output is wanted at points, a search ends as soon as that is known.
     ///
     /// # Errors
     /// [`CompileError::TooLarge`] if a part takes more operations than `limits` allow.
-    pub(crate) fn compile(region: &Region, limits: &Limits) -> Result<Self, CompileError> {
+    pub(crate) fn compile(region: &Region, sign: bool, limits: &Limits) -> Result<Self, CompileError> {
         let coordinates = |roots: &[NodeId]| {
             let used = roots.iter().flat_map(|root| region.graph().coordinates(*root).iter().last());
             used.map(|c| usize::from(c.0)).max().unwrap_or(0)
@@ -106,7 +109,8 @@ impl RegionProgram {
             Form::Ball { dimension, .. } => Work::Ball {
                 body: compile(&roots, *dimension)?,
                 dimension: *dimension,
-                directions: directions(*dimension),
+                plan: Plan::new(*dimension),
+                sign,
             },
         };
         Ok(Self { work })
@@ -131,9 +135,9 @@ impl RegionProgram {
                 store.counts.searches += lanes as u64;
                 search::sections(body, both, (*continuous, *budget), store, lanes);
             }
-            Work::Ball { body, dimension, directions } => {
+            Work::Ball { body, dimension, plan, sign } => {
                 store.counts.searches += lanes as u64;
-                search::balls(body, *dimension, directions, store, lanes);
+                search::balls(body, *dimension, (plan, *sign), store, lanes);
             }
         }
     }
@@ -145,8 +149,8 @@ impl RegionProgram {
                 repeat::ranges(body, (*states, guards), *limit, store, lanes);
             }
             Work::Section { both, continuous, .. } => search::section_ranges(both, *continuous, store, lanes),
-            Work::Ball { body, dimension, directions } => {
-                search::ball_ranges(body, *dimension, directions, store, lanes);
+            Work::Ball { body, dimension, plan, .. } => {
+                search::ball_ranges(body, *dimension, plan, store, lanes);
             }
         }
     }

@@ -6,7 +6,7 @@ use super::super::gradient::Duals;
 use super::super::interval::Ranges;
 use super::super::kernels::{Kind, Store};
 use super::{Body, Pointwise, RegionStore, copy, room};
-use crate::number::extremum::ball::{self, Ball};
+use crate::number::extremum::ball::{self, Ball, GRADIENT, Plan};
 use crate::number::extremum::section::{self, Section};
 use crate::number::{Binary, Dual, Interval};
 
@@ -206,13 +206,25 @@ impl Ball for About<'_> {
         let result = self.probe.ranges.result(&self.body.program);
         values.iter_mut().enumerate().for_each(|(i, value)| *value = Ranges::get(result, i));
     }
+
+    fn gradient(&mut self, step: &[f64]) -> [f64; GRADIENT] {
+        let store = &mut self.probe.duals;
+        for (axis, (step, centre)) in step.iter().zip(&self.centre).enumerate() {
+            let mut slope = [0.0; GRADIENT];
+            slope[axis] = 1.0;
+            Duals::set(store.input(axis), 0, Dual { value: centre.lo + step, slope });
+        }
+        store.live = 1;
+        Duals::run(&self.body.program, store, 8, &mut ());
+        Duals::get(store.result(&self.body.program), 0).slope
+    }
 }
 
 /// Searches the highest value in a ball at the points of the first lanes.
 pub(super) fn balls<K: Pointwise>(
     body: &Body,
     dimension: usize,
-    directions: &[Vec<f64>],
+    (plan, sign): (&Plan, bool),
     store: &mut RegionStore<K>,
     lanes: usize,
 ) {
@@ -220,18 +232,24 @@ pub(super) fn balls<K: Pointwise>(
     store.inner.reserve(&body.program);
     let probe = store.probe.get_or_insert_with(Probe::new);
     probe.doubles.reserve(&body.program);
+    probe.duals.reserve(&body.program);
+    probe.ranges.reserve(&body.program);
+    // With derivatives the place itself is asked for.
+    let sign = sign && K::STEADY;
     for lane in 0..lanes {
         let number = |input: usize| K::number(K::get(&store.given[input], lane));
         for input in dimension..body.program.inputs().len() {
             let value = number(input + 1);
             let block = probe.doubles.input(input);
             (0..Doubles::LANES).for_each(|i| Doubles::set(block, i, value));
+            Duals::set(probe.duals.input(input), 0, Dual::constant(value));
+            probe.fix_range(input, Interval::point(value));
         }
         let radius = K::get(&store.given[dimension], lane);
         let r = K::number(radius);
         let centre = (0..dimension).map(|axis| Interval { lo: number(axis), hi: number(axis), undefined: false });
         let mut about = About { body, probe, centre: centre.collect() };
-        let steps = ball::highest(&mut about, dimension, r, directions);
+        let steps = ball::highest(&mut about, dimension, r, plan, sign);
         let length = steps.iter().fold(0.0, |all, x| Binary::Hypot.real(all, *x));
         let rim = r > 0.0 && length >= r * RIM;
         for (axis, step) in steps.into_iter().enumerate() {
@@ -248,13 +266,7 @@ pub(super) fn balls<K: Pointwise>(
 }
 
 /// Bounds the highest value in a ball over the boxes of the first lanes.
-pub(super) fn ball_ranges(
-    body: &Body,
-    dimension: usize,
-    directions: &[Vec<f64>],
-    store: &mut RegionStore<Ranges>,
-    lanes: usize,
-) {
+pub(super) fn ball_ranges(body: &Body, dimension: usize, plan: &Plan, store: &mut RegionStore<Ranges>, lanes: usize) {
     room::<Ranges>(&mut store.outputs, dimension + 1);
     let probe = store.probe.get_or_insert_with(Probe::new);
     probe.ranges.reserve(&body.program);
@@ -264,7 +276,7 @@ pub(super) fn ball_ranges(
         }
         let centre = (0..dimension).map(|axis| Ranges::get(&store.given[axis], lane)).collect();
         let radius = Ranges::get(&store.given[dimension], lane);
-        let (value, step) = ball::bounds(&mut About { body, probe, centre }, dimension, radius, directions);
+        let (value, step) = ball::bounds(&mut About { body, probe, centre }, dimension, radius, plan);
         Ranges::set(&mut store.outputs[0], lane, value);
         store.outputs[1..=dimension].iter_mut().for_each(|output| Ranges::set(output, lane, step));
     }
