@@ -7,7 +7,7 @@
   Shows:    COLOR as constants, as an expression of the coordinates and as a value of the palette; several objects,
             a cut with its sections, ambient occlusion.
   Run:      yont examples/22_colours.geo -o peach.png --object gob_stone,gob_peach,gob_stalk,gob_plate --cut x2=0
-            the same with -o whole.png, --cut left out, for the whole peach
+            yont examples/22_colours.geo -o whole.png --object gob_peach,gob_stalk,gob_plate
             yont measure examples/22_colours.geo --object gob_stone --resolution 96
   Expected: half a peach on a plate, hatched where it is cut, with its stone and stalk; the stone has the volume = 0.5301 }
 
