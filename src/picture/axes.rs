@@ -91,7 +91,8 @@ pub fn ticks(lo: f64, hi: f64, most: usize) -> Ticks {
     let counts: Vec<i64> = (first..=last).take(2 * most.max(2)).map(|k| k.saturating_mul(leading)).collect();
     let largest = counts.iter().map(|&k| scaled(k, exponent).abs()).fold(0., f64::max);
     let power = if largest >= 1e5 || (largest > 0. && largest < 1e-3) { largest.log10().floor() as i32 } else { 0 };
-    let decimals = (power - exponent).max(0) as usize;
+    // A lone 0 has no digits behind the point.
+    let decimals = if largest > 0. { (power - exponent).max(0) as usize } else { 0 };
     let label = |&k: &i64| signed(format!("{:.decimals$}", scaled(k, exponent - power)));
     Ticks {
         values: counts.iter().map(|&k| scaled(k, exponent)).collect(),

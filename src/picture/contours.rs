@@ -122,7 +122,9 @@ type Taken = Vec<([f32; 2], f32)>;
 /// The lines of one level, with its value in each that has room for it.
 fn contour(canvas: &mut Canvas, lines: &[Isoline], plot: &Plot, stroke: &Stroke, taken: &mut Taken) {
     let size = plot.look.text * 0.88;
-    let room = text::width(&stroke.label, size) + size * 1.4;
+    // Beside a dash a minus needs more room, or it would be one more of them.
+    let margin = if stroke.pen.dash.is_some() { 2.4 } else { 1.4 };
+    let room = text::width(&stroke.label, size) + size * margin;
     for line in lines {
         let track = Track::new(line, plot);
         let place = if stroke.label.is_empty() { None } else { track.place(room, taken) };

@@ -84,7 +84,25 @@ impl Legend {
         if self.levels.is_empty() || labels.len() > most || labels.iter().any(|label| label.contains('e')) {
             return ticks(self.axis.lo, self.axis.hi, most.min(11));
         }
-        Ticks { values: self.levels.clone(), labels: same_digits(labels), power: 0 }
+        let kept = self.apart(height, look.text * 1.15);
+        let values = kept.iter().map(|&k| self.levels[k]).collect();
+        let labels = kept.iter().map(|&k| labels[k].clone()).collect();
+        Ticks { values, labels: same_digits(labels), power: 0 }
+    }
+
+    /// The levels whose numbers have room, so many pixels each, ascending: 0 first, then the ends, then from the bottom up.
+    fn apart(&self, height: f32, room: f32) -> Vec<usize> {
+        let count = self.levels.len();
+        let row = |k: usize| self.axis.part(self.levels[k]) as f32 * height;
+        let first = (0..count).filter(|&k| self.levels[k] == 0.).chain(count.checked_sub(1)).chain(0..count);
+        let mut kept: Vec<usize> = Vec::new();
+        for k in first {
+            if kept.iter().all(|&other| (row(k) - row(other)).abs() >= room) {
+                kept.push(k);
+            }
+        }
+        kept.sort_unstable();
+        kept
     }
 }
 

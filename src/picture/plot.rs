@@ -81,13 +81,12 @@ pub fn plot(
     }
     match fill {
         Fill::Mono => {
-            let (signs, counters) = signs(shape, &Pixels { window, size }, interrupt)?;
-            Ok(finish(
-                size,
-                counters,
-                signs.iter().any(|&s| s),
-                |i, j| if signs[j * size[0] + i] { [0; 3] } else { [255; 3] },
-            ))
+            let pixels = Pixels { window, size };
+            let places = pixels.places();
+            let tasks = tasks(shape, &pixels, &places, interrupt)?;
+            let mut image = Image { width: size[0], height: size[1], rgba: vec![0; 4 * size[0] * size[1]] };
+            tasks.lay(&mut image.rgba, 4, |row, out| row.paint(out));
+            Ok(Plot { image, met: tasks.met(), counters: tasks.counters })
         }
         Fill::Solid(palette) => {
             let fine = fineness(size);
@@ -215,6 +214,15 @@ impl Pixels {
     }
 }
 
+impl Pixels {
+    fn places(&self) -> Places {
+        Places {
+            columns: (0..self.size[0]).map(|i| self.column(i)).collect(),
+            rows: (0..self.size[1]).map(|j| self.row(j)).collect(),
+        }
+    }
+}
+
 impl Lattice for Pixels {
     fn counts(&self) -> [usize; 3] {
         [self.size[0], self.size[1], 1]
@@ -225,7 +233,7 @@ impl Lattice for Pixels {
     }
 
     fn task(&self) -> [usize; 3] {
-        [64, 64, 1]
+        [BAND, BAND, 1]
     }
 
     fn bounds(&self, block: &Block, out: &mut [Interval]) {
@@ -235,66 +243,159 @@ impl Lattice for Pixels {
     }
 }
 
+/// Samples along each side of a task.
+const BAND: usize = 64;
+
+/// The coordinates of the sample points, by column and by row.
+struct Places {
+    columns: Vec<f64>,
+    rows: Vec<f64>,
+}
+
 /// The signs of one task's samples, row by row.
 struct Signs<'a> {
-    pixels: &'a Pixels,
+    places: &'a Places,
     block: Block,
+    /// What all samples are, as long as `inside` is empty.
+    all: bool,
     inside: Vec<bool>,
     columns: [Vec<f64>; 2],
     values: Vec<f64>,
 }
 
+/// Signs of neighbouring samples.
+enum Row<'a> {
+    Same(bool),
+    Each(&'a [bool]),
+}
+
+impl Row<'_> {
+    /// Black inside, white outside, opaque.
+    fn paint(&self, out: &mut [u8]) {
+        let shade = |inside: bool| if inside { [0, 0, 0, 255] } else { [255; 4] };
+        match *self {
+            Self::Same(inside) => out.chunks_exact_mut(4).for_each(|pixel| pixel.copy_from_slice(&shade(inside))),
+            Self::Each(row) => {
+                let pixels = out.chunks_exact_mut(4).zip(row);
+                pixels.for_each(|(pixel, &inside)| pixel.copy_from_slice(&shade(inside)));
+            }
+        }
+    }
+}
+
 impl Signs<'_> {
-    fn row(&mut self, block: &Block, j: usize) -> &mut [bool] {
-        let width = self.block.to[0] - self.block.from[0];
-        let start = (j - self.block.from[1]) * width + (block.from[0] - self.block.from[0]);
+    fn width(&self) -> usize {
+        self.block.to[0] - self.block.from[0]
+    }
+
+    fn row(&self, j: usize) -> Row<'_> {
+        let (width, from) = (self.width(), (j - self.block.from[1]) * self.width());
+        match self.inside.get(from..from + width) {
+            Some(row) => Row::Each(row),
+            None => Row::Same(self.all),
+        }
+    }
+
+    fn part(&mut self, block: &Block, j: usize) -> &mut [bool] {
+        if self.inside.is_empty() {
+            self.inside.resize(self.block.points() as usize, self.all);
+        }
+        let start = (j - self.block.from[1]) * self.width() + (block.from[0] - self.block.from[0]);
         &mut self.inside[start..start + (block.to[0] - block.from[0])]
     }
 }
 
 impl Visitor for Signs<'_> {
     fn uniform(&mut self, block: &Block, inside: bool) {
-        if inside {
-            (block.from[1]..block.to[1]).for_each(|j| self.row(block, j).fill(true));
+        if *block == self.block {
+            self.all = inside;
+        } else if inside {
+            (block.from[1]..block.to[1]).for_each(|j| self.part(block, j).fill(true));
         }
     }
 
     fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) {
-        self.columns.iter_mut().for_each(Vec::clear);
-        for j in block.from[1]..block.to[1] {
-            self.columns[0].extend((block.from[0]..block.to[0]).map(|i| self.pixels.column(i)));
-            let y = self.pixels.row(j);
-            self.columns[1].extend((block.from[0]..block.to[0]).map(|_| y));
+        let [mut xs, mut ys] = std::mem::take(&mut self.columns);
+        xs.clear();
+        ys.clear();
+        let columns = &self.places.columns[block.from[0]..block.to[0]];
+        for &y in &self.places.rows[block.from[1]..block.to[1]] {
+            xs.extend_from_slice(columns);
+            ys.resize(xs.len(), y);
         }
         let mut values = std::mem::take(&mut self.values);
-        values.clear();
-        values.resize(self.columns[0].len(), 0.0);
-        sampler.values(program, &[&self.columns[0], &self.columns[1]], &mut values);
-        for (j, values) in (block.from[1]..block.to[1]).zip(values.chunks_exact(block.to[0] - block.from[0])) {
-            self.row(block, j).iter_mut().zip(values).for_each(|(inside, &v)| *inside = v >= 0.0);
+        values.resize(xs.len(), 0.0);
+        sampler.values(program, &[&xs, &ys], &mut values);
+        for (j, values) in (block.from[1]..block.to[1]).zip(values.chunks_exact(columns.len())) {
+            self.part(block, j).iter_mut().zip(values).for_each(|(inside, &v)| *inside = v >= 0.0);
         }
         self.values = values;
+        self.columns = [xs, ys];
+    }
+}
+
+/// The signs of all samples, task by task.
+struct Tasks<'a> {
+    all: Vec<Signs<'a>>,
+    width: usize,
+    counters: Counters,
+}
+
+impl Tasks<'_> {
+    /// Whether a sample is inside.
+    fn met(&self) -> bool {
+        self.all.iter().any(|task| if task.inside.is_empty() { task.all } else { task.inside.contains(&true) })
+    }
+
+    /// Lays each row of each task where it belongs in a picture of `per` items a sample.
+    fn lay<T: Send>(&self, out: &mut [T], per: usize, put: impl Fn(Row<'_>, &mut [T]) + Sync) {
+        let mut bands: Vec<Vec<&Signs<'_>>> = Vec::new();
+        bands.resize_with(out.len().div_ceil(BAND * self.width * per), Vec::new);
+        for task in &self.all {
+            let meets = task.block.from[1] / BAND..task.block.to[1].div_ceil(BAND);
+            bands[meets].iter_mut().for_each(|band| band.push(task));
+        }
+        out.par_chunks_mut(BAND * self.width * per).zip(bands).enumerate().for_each(|(band, (rows, tasks))| {
+            let first = band * BAND;
+            let last = first + rows.len() / (self.width * per);
+            for task in tasks {
+                for j in task.block.from[1].max(first)..task.block.to[1].min(last) {
+                    let at = ((j - first) * self.width + task.block.from[0]) * per;
+                    put(task.row(j), &mut rows[at..at + task.width() * per]);
+                }
+            }
+        });
     }
 }
 
 /// Which samples are inside, row by row.
 fn signs(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<bool>, Counters), Cancelled> {
+    let places = pixels.places();
+    let tasks = tasks(shape, pixels, &places, interrupt)?;
+    let mut all = vec![false; pixels.size[0] * pixels.size[1]];
+    tasks.lay(&mut all, 1, |row, out| match row {
+        Row::Same(inside) => out.fill(inside),
+        Row::Each(row) => out.copy_from_slice(row),
+    });
+    Ok((all, tasks.counters))
+}
+
+fn tasks<'a>(
+    shape: &Shape,
+    pixels: &Pixels,
+    places: &'a Places,
+    interrupt: &Interrupt,
+) -> Result<Tasks<'a>, Cancelled> {
     let visitor = |block: &Block| Signs {
-        pixels,
+        places,
         block: *block,
-        inside: vec![false; block.points() as usize],
+        all: false,
+        inside: Vec::new(),
         columns: [Vec::new(), Vec::new()],
         values: Vec::new(),
     };
     let done = walk(pixels, shape, visitor, interrupt)?;
-    let mut all = vec![false; pixels.size[0] * pixels.size[1]];
-    for task in done.visitors {
-        let width = task.block.to[0] - task.block.from[0];
-        for (j, row) in (task.block.from[1]..).zip(task.inside.chunks_exact(width.max(1))) {
-            all[j * pixels.size[0] + task.block.from[0]..][..width].copy_from_slice(row);
-        }
-    }
-    Ok((all, done.counters))
+    Ok(Tasks { all: done.visitors, width: pixels.size[0], counters: done.counters })
 }
 
 /// Samples that become smoothed pixels with a line where neighbours differ.

@@ -171,11 +171,21 @@ pub fn render(
     let brush = Brush::new(scene, style, things, &air);
     let mut edges = vec![false; width * height];
     first_pass(&brush, things, &mut picture, &mut edges, interrupt)?;
+    if picture.hits == 0 || width.min(height) < NARROW {
+        // What lies between the corners of so few pixels is seen by more rays alone.
+        edges.fill(width * height <= MOST_SMALL);
+    }
     if style.fine() > 1 {
         second_pass(&brush, things, &mut picture, &edges, interrupt)?;
     }
     Ok(picture)
 }
+
+/// A picture with a shorter side than this takes more rays through all of its pixels, as does a small one in which nothing is seen.
+const NARROW: usize = 8;
+
+/// Pixels that may all take more rays.
+const MOST_SMALL: usize = 1 << 16;
 
 /// What is between the lights and the objects.
 #[derive(Default)]
@@ -314,6 +324,7 @@ fn second_pass(
     let parts: Vec<&[Lit]> = layers.iter().map(Vec::as_slice).collect();
     let pixels: Vec<[u8; 4]> =
         cells.par_iter().enumerate().map(|(n, &at)| brush.touch_up(&parts, n, at / picture.image.width)).collect();
+    picture.hits += layers.iter().flatten().flatten().count() as u64;
     for (at, rgba) in cells.into_iter().zip(pixels) {
         picture.image.rgba[4 * at..][..4].copy_from_slice(&rgba);
     }

@@ -130,6 +130,9 @@ const GOLDEN_STEPS: usize = 24;
 /// Steps of a root search; at least every third leaves half of the bracket or less.
 const ROOT_STEPS: usize = 120;
 
+/// Of the rays through a box that seems far outside, one of so many is looked at in its middle too.
+const PROBE_STRIDE: usize = 7;
+
 /// Scratch for points and values.
 #[derive(Default)]
 struct Columns {
@@ -311,11 +314,16 @@ impl<'a, T, F> Caster<'a, T, F> {
         self.summits.clear();
         let all: Vec<usize> = (0..self.segments.len()).collect();
         self.fill(&all, &ENDS, program, sampler);
-        if is_far(&self.samples) {
-            self.remember();
-            return;
+        if is_far(&self.samples, 0) {
+            // A plate between the ends shows at neither of them: a few rays look into the middle too.
+            let some: Vec<usize> = all.iter().copied().step_by(PROBE_STRIDE).collect();
+            self.fill(&some, &COARSE[1..2], program, sampler);
+            if is_far(&self.samples, PROBE_STRIDE) {
+                self.remember();
+                return;
+            }
         }
-        self.fill(&all, &[3], program, sampler);
+        self.fill(&all, &COARSE[1..2], program, sampler);
         let open: Vec<usize> =
             all.into_iter().filter(|&n| !self.sort(n, &COARSE) && is_open(&self.samples[n])).collect();
         if !open.is_empty() {

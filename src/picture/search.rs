@@ -109,12 +109,14 @@ pub(super) fn is_open(values: &[f64; SAMPLES]) -> bool {
 /// Fewer rays tell too little about how much the function changes in a box.
 const ENOUGH: usize = 16;
 
-/// Whether rays through a box, by the samples at their ends, are so far outside everywhere that nothing is to be looked for between them:
-/// by more than twice what the function changes from any of the samples to any other.
-pub(super) fn is_far(samples: &[[f64; SAMPLES]]) -> bool {
-    let ends = || samples.iter().flat_map(|values| ENDS.map(|step| values[step]));
-    let (least, most) = ends().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
-    samples.len() >= ENOUGH && ends().all(f64::is_finite) && most < -2.0 * (most - least)
+/// Whether rays through a box, by the samples at their ends and in the middle of every `stride`-th (of none if that is 0), are so far
+/// outside everywhere that nothing is to be looked for between them: by more than twice what the function changes from any of the
+/// samples to any other.
+pub(super) fn is_far(samples: &[[f64; SAMPLES]], stride: usize) -> bool {
+    let middles = samples.iter().step_by(stride.max(1)).map(|values| values[COARSE[1]]).filter(|_| stride > 0);
+    let known = || samples.iter().flat_map(|values| ENDS.map(|step| values[step])).chain(middles.clone());
+    let (least, most) = known().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+    samples.len() >= ENOUGH && known().all(f64::is_finite) && most < -2.0 * (most - least)
 }
 
 /// The golden section.

@@ -33,6 +33,12 @@ impl Estimate {
         Self { value: fine, error: 1.5 * first.abs().max(second.abs() / 3.0) + floor }
     }
 
+    /// The same with an error of at least that.
+    #[must_use]
+    pub fn at_least(self, error: f64) -> Self {
+        Self { error: self.error.max(error), ..self }
+    }
+
     /// The middle of a range, with half of its length: a bound.
     #[must_use]
     pub fn between(lo: f64, hi: f64) -> Self {

@@ -47,6 +47,9 @@ pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
         all.push((Moments::of(&found), bend, found));
     }
     let is_smooth = !has_corners(&all[0].2);
+    // Corners may lie alike between the sample points of all three grids, so that the differences do not tell what they lose.
+    let [lost_length, lost] =
+        all[0].2.lines.iter().map(|line| lost(line)).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
     let size = (0..2).map(|d| grid.hi[d] - grid.lo[d]).fold(0.0, f64::max);
     let estimate = |part: &dyn Fn(&Moments) -> f64, scale: f64| {
         let values = [0, 1, 2].map(|level| all.get(level).map(|(moments, ..)| part(moments)));
@@ -59,10 +62,14 @@ pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
     let mut report = all[0].2.report.clone();
     all[1..].iter().for_each(|level| report.counters.add(level.2.report.counters.clone()));
     Ok(Figure {
-        area: estimate(&|m| m.area, area),
-        perimeter: estimate(&|m| m.perimeter, all[0].0.perimeter),
-        centroid: [0, 1].map(|d| estimate(&|m| m.centroid[d], size)),
-        inertia: [0, 1].map(|r| [0, 1].map(|c| estimate(&|m| m.inertia[r][c], area * size * size))),
+        area: estimate(&|m| m.area, area).at_least(lost),
+        perimeter: estimate(&|m| m.perimeter, all[0].0.perimeter).at_least(lost_length),
+        centroid: [0, 1].map(|d| {
+            estimate(&|m| m.centroid[d], size).at_least(if lost > 0.0 { 0.25 * size * lost / area } else { 0.0 })
+        }),
+        inertia: [0, 1].map(|r| {
+            [0, 1].map(|c| estimate(&|m| m.inertia[r][c], area * size * size).at_least(0.25 * lost * size * size))
+        }),
         components,
         holes: lines as usize - components,
         is_settled: all.get(1).is_none_or(|half| count(&half.2) == (lines, euler)),
@@ -89,6 +96,34 @@ fn has_corners(contour: &Contour) -> bool {
             a * c + b * d < 0.766
         })
     })
+}
+
+/// What an outline loses of length and area where one of its sides bevels a corner: where it turns at both ends of the side, by more than
+/// 40 degrees together.
+fn lost(line: &[[f64; 2]]) -> [f64; 2] {
+    // Beyond this turn the sides beside tell little of the corner.
+    const SHARPEST: f64 = -0.87;
+    let count = line.len();
+    let step = |i: usize| {
+        let ([a, b], [c, d]) = (line[i % count], line[(i + 1) % count]);
+        let length = (c - a).hypot(d - b);
+        ([(c - a) / length, (d - b) / length], length)
+    };
+    let along = |[a, b]: [f64; 2], [c, d]: [f64; 2]| a * c + b * d;
+    let mut sum = [0.0; 2];
+    for i in 0..count {
+        let [(before, _), (own, length), (behind, _)] = [step(i), step(i + 1), step(i + 2)];
+        // A side that goes straight on at one end is no bevel.
+        let bends = along(before, own).max(along(own, behind)) < 0.996;
+        let cosine = along(before, behind);
+        if bends && cosine < 0.766 {
+            let half = (0.5 * (1.0 + cosine.max(SHARPEST))).sqrt();
+            let height = 0.5 * length * (1.0 - half * half).sqrt() / half;
+            sum[0] += 1.2 * length * (1.0 / half - 1.0);
+            sum[1] += 1.2 * 0.5 * length * height;
+        }
+    }
+    sum
 }
 
 /// The integrals over the inside of outlines.

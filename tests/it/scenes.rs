@@ -131,6 +131,31 @@ fn a_transparent_ground_lets_the_covered_part_of_each_pixel_stay() {
 }
 
 #[test]
+fn what_is_thin_or_small_is_seen_and_what_is_not_seen_is_not_called_empty() {
+    let view = |side: usize, view: &str| {
+        let view = view.to_owned();
+        move |options: &mut Options| {
+            front(side)(options);
+            options.picture.view = view;
+        }
+    };
+    // Both ends of all rays through the middle of the plate have the same value.
+    let plate = "gob_a = (1 - x1**2) & (1 - x2**2) & (1e-6 - x3**2);";
+    let bounds = "x1min=-1.2;x1max=1.2;x2min=-1.2;x2max=1.2;x3min=-0.0015;x3max=0.0015;";
+    let seen = picture(&[plate, bounds], view(96, "top"));
+    let across = (0..96).filter(|&i| seen.pixel(i, 48)[3] == 255).count();
+    assert!(across > 60, "{across} pixels");
+    let whole = covered(&seen, |_| true);
+    assert!((whole / (across * across) as f64 - 1.0).abs() < 0.05, "{whole} pixels of {across} x {across}");
+    let pixel = picture(&[BALL, SPACE], view(1, "front"));
+    assert!(pixel.pixel(0, 0)[3] > 0, "a ball in one pixel");
+    let far = "gob_a = (1 - x1**2 - x2**2 - x3**2) | (1 - (x1 - 1000)**2 - x2**2 - x3**2);";
+    let told = make(&[far], "a.png", view(40, "front")).expect_err("far smaller than a pixel");
+    let error = told.iter().find(|told| told.severity == Severity::Error).expect("an error");
+    assert_eq!((error.code, &*error.title), ("empty-object", "nothing of `gob_a` is seen in this picture"));
+}
+
+#[test]
 fn a_colour_is_seen_where_it_is() {
     let plain = picture(&[BALL, SPACE, "gob_a : COLOR = [1, 0.4, 0.2];"], front(60));
     let formula = picture(&[BALL, SPACE, "gob_a : COLOR = [1, IF x1 > 9 THEN 0 ELSE 0.4, 0.2];"], front(60));

@@ -137,7 +137,10 @@ impl<'a> Making<'a> {
             }
         }
         self.subject = first;
-        if bodies.is_empty() { Err(empty(first, Some(moment), nothing.as_ref())) } else { Ok(bodies) }
+        if bodies.is_empty() {
+            return Err(self.shop.nothing(first, Some(moment), nothing.as_ref()));
+        }
+        Ok(bodies)
     }
 
     /// The colour of each vertex.

@@ -12,7 +12,9 @@ use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
 use crate::picture::Image;
 use crate::picture::field::sample;
+use crate::surface::marching::Report;
 use crate::surface::sampler::Counters;
+use crate::surface::space::reach;
 use crate::vm::region::Counts;
 use crate::vm::{Demand, Shape};
 
@@ -42,6 +44,26 @@ pub struct Workshop<'a> {
     pub interrupt: &'a Interrupt,
     /// Where files go.
     pub host: &'a dyn Host,
+}
+
+impl Workshop<'_> {
+    /// Why an output shows nothing of a subject: there is nothing, or it is too small or lies beside what is seen.
+    pub(super) fn nothing(&self, subject: &Subject, moment: Option<f64>, report: Option<&Report>) -> Diagnostic {
+        // Enough for a point of it; where it ends is told roughly.
+        const PART: f64 = 1e-2;
+        let of = |one: &Subject| {
+            let shape = one.shape(self.graph, Demand::Sign, self.limits).ok()?;
+            let shape = moment.map_or_else(|| shape.clone(), |moment| one.at(&shape, moment));
+            let axes = one.axes.iter().map(|axis| (axis.range[0], axis.range[1]));
+            let ranges: Vec<(f64, f64)> = axes.chain(shape.fixed.iter().map(|&value| (value, value))).collect();
+            reach(shape.program.clone(), &ranges, PART, self.limits.search_operations / 30, self.interrupt).ok()?
+        };
+        let is_found = subject.columns.is_none() && subject.rows.is_none() && subject.all().all(Subject::is_single);
+        match subject.all().filter(|_| is_found).find_map(|one| Some((one, of(one)?))) {
+            Some((one, found)) => told::unseen(one, moment, &found, report),
+            None => empty(subject, moment, report),
+        }
+    }
 }
 
 /// The diagnostic of a computation that was stopped.
@@ -106,7 +128,7 @@ impl Making<'_> {
             let picture = artist.picture(moment, self.shop.interrupt)?;
             self.undefined(&picture.counters);
             if picture.hits == 0 {
-                return Err(empty(self.subject, Some(moment), None));
+                return Err(self.shop.nothing(self.subject, Some(moment), None));
             }
             self.line(n, &picture_line(&picture.image, &picture.counters), begun);
             self.put(n, &mut |out| export::png::write(&picture.image, &mut { out }))?;
@@ -140,7 +162,7 @@ impl Making<'_> {
         }
         self.undefined(&counters);
         if hits == 0 {
-            return Err(empty(self.subject, None, None));
+            return Err(self.shop.nothing(self.subject, None, None));
         }
         let what = format!("{} frames, {}", frames.len(), picture_line(&frames[0], &counters));
         self.line(0, &what, begun);

@@ -104,6 +104,9 @@ impl fmt::Display for Told {
             let digits = if error > 0.0 { (1.0 + (value.abs() / error).log10()).clamp(0.0, 15.0) as usize } else { 6 };
             return write!(f, "{value:.digits$e} (+- {error:.1e})");
         }
+        if error >= 1e9 {
+            return write!(f, "{value:.1e} (+- {error:.1e})");
+        }
         let digits = if error > 0.0 { (1.0 - error.log10().floor()).clamp(0.0, 12.0) as usize } else { 6 };
         // What rounds to nothing is nothing: no minus before it.
         let value = if value.abs() < 0.5 * 10_f64.powi(-(digits as i32)) { 0.0 } else { value };

@@ -122,7 +122,8 @@ impl<'a> Artist<'a> {
             hits += cell.hits;
             images.push(cell.image);
         }
-        let title = time.map_or_else(|| subject.name.to_string(), |time| format!("{}, {time}", subject.name));
+        let title = std::iter::once(subject.name.to_string()).chain(subject.held()).chain(time);
+        let title = title.collect::<Vec<_>>().join(", ");
         let sheet = compose(&images, &heading(&subject.columns), &heading(&subject.rows), &title);
         let image = self.explained(sheet.map_err(|error| too_large(&error))?)?;
         Ok(Picture { image, counters, hits })

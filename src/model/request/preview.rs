@@ -6,7 +6,6 @@ use crate::picture::Image;
 use super::make::Workshop;
 use super::pictures::{Artist, view};
 use super::subject::Subject;
-use super::told::empty;
 use super::{Background, Options, View, together};
 use crate::model::environment::Object;
 use crate::model::session::Session;
@@ -40,7 +39,7 @@ fn small(shop: &Workshop<'_>, subject: &Subject, options: &Options, within: [usi
     let artist = Artist::new(shop, subject, &options, &moments)?;
     let picture = artist.picture(moments[0], shop.interrupt)?;
     if picture.hits == 0 {
-        return Err(empty(subject, Some(moments[0]), None));
+        return Err(shop.nothing(subject, Some(moments[0]), None));
     }
     Ok(shrunk(picture.image, within))
 }

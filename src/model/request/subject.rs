@@ -146,6 +146,13 @@ impl Subject {
         self.groups.is_empty() && self.colour.is_none() && self.levels.is_empty()
     }
 
+    /// The sections that hold for all that is shown, as `x6 = 0.5`: of coordinates that take one value.
+    pub fn held(&self) -> impl Iterator<Item = String> + '_ {
+        let many = [&self.time, &self.columns, &self.rows, &self.colour].into_iter().flatten().chain(&self.groups);
+        let many: Vec<Coordinate> = many.map(|sequence| sequence.coordinate).collect();
+        self.fixed.iter().filter(move |(c, _)| !many.contains(c)).map(|(c, value)| format!("{c} = {}", number(*value)))
+    }
+
     /// Everything that is shown together in one picture: each pair, triple ... of sections; one without a value if there are none.
     #[must_use]
     pub fn sections(&self) -> Vec<Place> {

@@ -138,6 +138,41 @@ fn space(subject: &Subject) -> String {
     format!("the modelling space is {}", space.join(", "))
 }
 
+/// An object that has points, none of which is shown: exit status 1. `found` is how far it reaches along each axis.
+pub(super) fn unseen(
+    subject: &Subject,
+    moment: Option<f64>,
+    found: &[[[f64; 2]; 2]],
+    report: Option<&Report>,
+) -> Diagnostic {
+    if report.is_some_and(|report| report.details.iter().any(|d| d.kind == Kind::Part)) {
+        return empty(subject, moment, report);
+    }
+    let name = &subject.name;
+    let reaches: Vec<String> = subject
+        .axes
+        .iter()
+        .zip(found)
+        .map(|(axis, [[lo, _], [_, hi]])| format!("{} {} to {}", axis.coordinate, plain(*lo), plain(*hi)))
+        .collect();
+    let told = Diagnostic::error(
+        "empty-object",
+        match report {
+            Some(_) => format!("no sample point is inside `{name}`, which is smaller than a cell"),
+            None => format!("nothing of `{name}` is seen in this picture"),
+        },
+    );
+    let told =
+        told.category(Category::Result).fact(space(subject)).fact(format!("it lies within {}", reaches.join(", ")));
+    here(
+        match report {
+            Some(_) => told.help("give a larger --resolution, or --bounds about it"),
+            None => told.help("give a larger --size or --bounds about it; or another --camera, if it looks past it"),
+        },
+        subject,
+    )
+}
+
 /// An object without a point: exit status 1, with what may be the reason.
 pub(super) fn empty(subject: &Subject, moment: Option<f64>, report: Option<&Report>) -> Diagnostic {
     let name = &subject.name;
