@@ -417,6 +417,48 @@ fn boxes_of_a_fractal_have_the_signs_of_dense_sampling() {
     assert!(decided > 16_384 / 4 && counters.regions.turns > counters.points, "{decided} {counters:?}");
 }
 
+/// An escape-time solid of few turns: where boxes are small against it, whole boxes escape together, and with the root search on all
+/// crossed edges included fewer points are evaluated than there are samples.
+#[test]
+fn an_escape_time_solid_is_culled_by_intervals() {
+    let (session, node) = given(
+        "z = [x1, x2, x3]; r = 0; n = 0; WHILE (n < 6 AND r <= 4) DO BEGIN \
+         z = [z[1]**2 - z[2]**2 - z[3]**2 - 0.3, 2*z[1]*z[2] + 0.2, 2*z[1]*z[3] + 0.1]; r = DOT(z, z); n = n + 1; END; v = 4 - r;",
+    );
+    let shape = Shape::new(program(session.graph(), node, Demand::Sign), 3, Vec::new());
+    let mut parts = Vec::new();
+    for resolution in [64, 128] {
+        let grid = Grid::new(&[[-1.5, 1.5]; 3], resolution).expect("a grid");
+        let report = extract(&shape, &grid, &Limits::default(), &Interrupt::default()).expect("a mesh").report;
+        let (points, boxes) = (report.counters.points, report.counters.boxes);
+        eprintln!("{resolution}: {points} points and {boxes} boxes evaluated, {} samples", report.samples);
+        parts.push(points as f64 / report.samples as f64);
+    }
+    assert!(parts[1] < 0.7 && parts[1] < 0.6 * parts[0], "{parts:?}");
+}
+
+/// Where only the sign is wanted a search over a ball may end early, and still tells the sign of the value; also below a complement.
+#[test]
+fn the_sign_of_an_offset_is_that_of_its_value() {
+    let mut random = Random(18);
+    for script in [
+        "v = OFFSET_BALL(MIN(1 - ABS(x1), 1 - ABS(x2), 1 - ABS(x3)), 0.4);",
+        "v = OFFSET_BALL(0.3 - (SQRT(x1**2 + x2**2) - 1)**2 - x3**2, -0.2);",
+        "v = OFFSET_BALL(1 - x1**2 - x2**2 - x3**2, 0.3 - 0.2*x3) & -OFFSET_BALL(x1 - x2, 0.1);",
+        "v = -(OFFSET_BALL(SIN(3*x1)*SIN(3*x2) - x3, 0.25) | OFFSET_BALL(SQRT(x1 - x2) - 1, 0.5));",
+        "v = OFFSET_BALL(FLOOR(2*x1) + x2, 0.3) \\ PROJECT(1 - (x1 - x4)**2 - x2**2, x4, 0, 1);",
+    ] {
+        let (session, node) = given(script);
+        let at = scattered(&mut random, 300, 2.0);
+        let plain = values(&program(session.graph(), node, Demand::Value), &at);
+        let signs = values(&program(session.graph(), node, Demand::Sign), &at);
+        for (k, (value, sign)) in plain.iter().zip(&signs).enumerate() {
+            let point = [at[0][k], at[1][k], at[2][k]];
+            assert_eq!(*value >= 0.0, *sign >= 0.0, "{script} at {point:?}: {value}, {sign}");
+        }
+    }
+}
+
 #[test]
 fn functions_may_call_each_other() {
     let cases = [

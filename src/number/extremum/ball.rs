@@ -38,6 +38,8 @@ const LEVEL: f64 = 1e-8;
 pub struct Plan {
     /// At most [`AT_ONCE`] unit vectors.
     directions: Vec<Vec<f64>>,
+    /// The same, one column per variable.
+    axes: Vec<Vec<f64>>,
     /// Cells of the unit ball, at most [`AT_ONCE`], one column per variable.
     cells: Vec<Vec<Interval>>,
 }
@@ -53,7 +55,9 @@ impl Plan {
         let cells = pieces(&vec![Interval::new(-1.0, 1.0); dimension], cut);
         let cells: Vec<_> = cells.into_iter().filter(|cell| touches(cell, 1.0)).collect();
         let column = |axis: usize| cells.iter().map(|cell| cell[axis]).collect();
-        Self { directions: directions(dimension), cells: (0..dimension).map(column).collect() }
+        let directions = directions(dimension);
+        let axes = (0..dimension).map(|axis| directions.iter().map(|d| d[axis]).collect()).collect();
+        Self { directions, axes, cells: (0..dimension).map(column).collect() }
     }
 }
 
@@ -115,17 +119,24 @@ impl Places {
         self.columns.iter_mut().for_each(Vec::clear);
     }
 
-    /// Adds the step `from + scale * direction`, drawn to the boundary if it leads out of the ball.
-    fn add(&mut self, from: &[f64], scale: f64, direction: &[f64], radius: f64) {
-        let mut square = 0.0;
-        for ((column, from), d) in self.columns.iter_mut().zip(from).zip(direction) {
-            let x = from + scale * d;
-            square += x * x;
-            column.push(x);
+    /// Adds the step `from + scale * direction` for each of the directions, which are given one column per variable.
+    fn add<D: AsRef<[f64]>>(&mut self, from: &[f64], scale: f64, directions: &[D]) {
+        for ((column, from), d) in self.columns.iter_mut().zip(from).zip(directions) {
+            column.extend(d.as_ref().iter().map(|d| from + scale * d));
         }
-        if square > radius * radius {
-            let shrink = radius / square.sqrt();
-            self.columns.iter_mut().filter_map(|column| column.last_mut()).for_each(|x| *x *= shrink);
+    }
+
+    /// Draws to the boundary what leads out of the ball.
+    fn draw(&mut self, radius: f64) {
+        let shrink = &mut self.values;
+        shrink.clear();
+        shrink.resize(self.columns.first().map_or(0, Vec::len), 0.0);
+        for column in &self.columns {
+            shrink.iter_mut().zip(column).for_each(|(sum, x)| *sum += x * x);
+        }
+        shrink.iter_mut().for_each(|s| *s = if *s > radius * radius { radius / s.sqrt() } else { 1.0 });
+        for column in &mut self.columns {
+            column.iter_mut().zip(&*shrink).for_each(|(x, s)| *x *= s);
         }
     }
 
@@ -160,9 +171,9 @@ pub fn highest<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: f64, pl
         return centre;
     }
     let mut starts = Places::new(dimension);
-    starts.add(&centre, 0.0, &centre, f64::INFINITY);
+    starts.columns.iter_mut().for_each(|column| column.push(0.0));
     for scale in [radius, 0.5 * radius] {
-        plan.directions.iter().for_each(|d| starts.add(&centre, scale, d, f64::INFINITY));
+        starts.add(&centre, scale, &plan.axes);
     }
     starts.ask(ball);
     let mut order: Vec<usize> = (0..starts.values.len()).filter(|i| !starts.values[*i].is_nan()).collect();
@@ -186,7 +197,7 @@ pub fn highest<B: Ball + ?Sized>(ball: &mut B, dimension: usize, radius: f64, pl
         if climbed.iter().any(near) || (!climbed.is_empty() && !cells.reach_near(top, &start, 0.5 * APART * radius)) {
             continue;
         }
-        let (at, value) = climb(ball, radius, &plan.directions, (start.clone(), starts.values[i]), &mut looks);
+        let (at, value) = climb(ball, radius, &plan.axes, (start.clone(), starts.values[i]), &mut looks);
         if value > top {
             (best, top) = (at, value);
         }
@@ -235,24 +246,27 @@ impl Cells {
 fn climb<B: Ball + ?Sized>(
     ball: &mut B,
     radius: f64,
-    directions: &[Vec<f64>],
+    axes: &[Vec<f64>],
     (mut at, mut value): (Vec<f64>, f64),
     looks: &mut Places,
 ) -> (Vec<f64>, f64) {
     let mut reach = 0.25 * radius;
     let sloped = at.len() <= GRADIENT;
     let mut slope = None;
+    let count = axes.first().map_or(0, Vec::len);
     for _ in 0..LOOKS {
         if sloped && slope.is_none() {
             slope = Some(Slope::new(ball.gradient(&at), at.len()));
         }
         looks.clear();
         for scale in [reach, 0.3 * reach] {
-            directions.iter().for_each(|d| looks.add(&at, scale, d, radius));
+            looks.add(&at, scale, axes);
         }
         if let Some(Slope { ahead: Some(ahead), .. }) = &slope {
-            STRIDES.iter().for_each(|stride| looks.add(&at, stride * radius, ahead, radius));
+            let ahead: [[f64; 1]; GRADIENT] = std::array::from_fn(|axis| [ahead.get(axis).copied().unwrap_or(0.0)]);
+            STRIDES.iter().for_each(|stride| looks.add(&at, stride * radius, &ahead));
         }
+        looks.draw(radius);
         looks.ask(ball);
         let mut found = None;
         for (i, v) in looks.values.iter().enumerate() {
@@ -265,7 +279,7 @@ fn climb<B: Ball + ?Sized>(
             Some(i) => {
                 at = looks.get(i);
                 slope = None;
-                if i >= directions.len() && i < 2 * directions.len() {
+                if i >= count && i < 2 * count {
                     reach *= 0.6;
                 }
             }
