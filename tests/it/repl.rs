@@ -93,7 +93,7 @@ const PIPED: &[(&str, &str, Words, Words, i32)] = &[
     ("a command goes on with nothing", "a = 1\n:deps a\n", &["a reads nothing"], &[], 0),
     (
         "an object without a name shows itself",
-        "gob_a = 1 - x1**2 - x2**2; gob_b = 9 - x1**2 - (x2 - 1)**2;\ngob_a \\ gob_b\ngob_a & gob_b\n_(0, 0)\n",
+        "gob_a = 1 - x1**2 - x2**2; gob_b = 9 - x1**2 - (x2 - 1)**2;\ngob_a \\ gob_b\ngob_a & gob_b\n_ AT (0, 0)\n",
         &["_: 2-D object of x1, x2; empty", "_: 2-D object of x1, x2; x1 from"],
         &[],
         0,
