@@ -32,7 +32,9 @@ pub fn info(console: &Console, signals: &Signals, options: &arguments::Info) -> 
         Ok(all) => all,
         Err(diagnostics) => return Ok(console.report(session.sources(), &diagnostics)),
     };
-    if options.json {
+    if all.is_empty() && !options.json {
+        console.note("nothing here is an object: the name of one begins with `gob_`");
+    } else if options.json {
         let objects: Vec<Value> = all.iter().map(Info::json).collect();
         console.print(&json!({ "objects": objects }).to_string())?;
     } else {

@@ -58,10 +58,10 @@ pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(
     }
     if let Some(file) = &program.file {
         let text = read_text(file).map_err(|error| unread_program(console, file, &error))?;
-        events.extend(feed(console, &mut session, &name(file), &text)?);
+        events.extend(feed(console, &mut session, &name(file), &text, Mode::Script)?);
     }
     for code in &program.code {
-        events.extend(feed(console, &mut session, "-e", code)?);
+        events.extend(feed(console, &mut session, "-e", code, Mode::Code)?);
     }
     let unread: Vec<Diagnostic> = program.define.iter().filter_map(|define| unread(&session, &define.name)).collect();
     match console.report(session.sources(), &unread) {
@@ -110,8 +110,8 @@ pub fn required(console: &Console, signals: &Signals, program: &Program) -> Resu
     open(console, signals, program)
 }
 
-fn feed(console: &Console, session: &mut Session, name: &str, text: &str) -> Result<Vec<Event>, Status> {
-    let outcome = session.input(name, text, Mode::Script);
+fn feed(console: &Console, session: &mut Session, name: &str, text: &str, mode: Mode) -> Result<Vec<Event>, Status> {
+    let outcome = session.input(name, text, mode);
     finish(console, session, outcome)
 }
 

@@ -141,8 +141,23 @@ pub fn completions(console: &Console, shell: clap_complete::Shell) -> Result<Sta
 
 /// `yont man`.
 pub fn man(console: &Console) -> Result<Status, Status> {
+    let command = Cli::command();
     let mut page = Vec::new();
     // Writing to memory does not fail.
-    let _ = clap_mangen::Man::new(Cli::command()).render(&mut page);
+    let _ = clap_mangen::Man::new(command.clone()).render(&mut page);
+    let sections: String = command.get_subcommands().map(|sub| man_section(sub.clone())).collect();
+    page.extend(sections.bytes());
     console.write(|out| out.write_all(&page)).map(|()| Status::Done)
+}
+
+/// A section about a command of its own: what it does, how it is called, its options.
+fn man_section(command: clap::Command) -> String {
+    let name = format!("yont {}", command.get_name());
+    let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+    let man = clap_mangen::Man::new(command.bin_name(name.clone()).disable_help_flag(true));
+    let mut parts = Vec::new();
+    // As above.
+    let _ = man.render_synopsis_section(&mut parts).and_then(|()| man.render_options_section(&mut parts));
+    let parts = String::from_utf8_lossy(&parts).replace(".SH ", ".SS ");
+    format!(".SH {}\n{about}.\n{parts}", name.to_uppercase())
 }

@@ -2,6 +2,7 @@
 
 use crate::field::Coordinate;
 use crate::model::request::{Background, Cut, Half};
+use crate::syntax::scan::{Scanner, TokenKind};
 
 /// Slices that one output may have.
 const MOST_SLICES: usize = 10_000;
@@ -113,6 +114,9 @@ pub fn assignment(text: &str) -> Result<Assignment, String> {
         && name.chars().all(|c| c.is_alphanumeric() || c == '_');
     if !legal {
         return Err(format!("`{name}` is not a name"));
+    }
+    if Scanner::new(expression, 0, expression.len()).any(|token| token.kind == TokenKind::Semicolon) {
+        return Err("one expression gives one value: for more, give -D again, without `;`".into());
     }
     Ok(Assignment { name: name.into(), expression: expression.into() })
 }

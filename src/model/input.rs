@@ -16,7 +16,7 @@ use super::definition::{Definition, DefinitionId, SystemInForce};
 use super::errors;
 use super::lower::{Fault, Lower, World};
 use super::names;
-use super::session::{Event, Outcome, Session};
+use super::session::{Event, Outcome, Session, UNNAMED};
 use super::state::{Declared, Entry, Kept};
 use super::value::{Scalar, Value};
 
@@ -374,8 +374,9 @@ impl<'s> Input<'s> {
             self.loose.extend(said.reads.iter().filter(|(n, _)| !own.contains(n)).cloned());
             return None;
         }
-        let pinned = outputs.len() == 1 && own.is_empty() && self.mode == Mode::Script;
+        let pinned = outputs.len() == 1 && own.is_empty() && self.mode != Mode::Prompt;
         if pinned && state.is_pinned(&outputs[0]) {
+            self.check_pinned(&statement);
             return None;
         }
         let reads = said.reads.iter().filter(|(n, _)| !own.contains(n)).cloned().collect();
@@ -383,6 +384,18 @@ impl<'s> Input<'s> {
         let uses_system = said.uses_system;
         let id = self.session.next_id();
         Some(Definition { id, statement, outputs, bases, reads, system, uses_system })
+    }
+
+    /// The range of a parameter holds for the value that the command line gives it. Bounds that are known only further down
+    /// are not looked at.
+    fn check_pinned(&mut self, statement: &Statement) {
+        if let StatementKind::Define { name, range: Some(range), .. } = &statement.kind
+            && let Some(Ok(value)) = self.session.value(&name.name)
+            && let Err(Fault::Told(told)) = self.with_lower(|lower| lower.check_range(&name.name, &value, range))
+            && told.code != "unknown-name"
+        {
+            self.tell(*told);
+        }
     }
 
     /// Keeps track of who read what since when, for the warning about two definitions with a reader between.
@@ -396,7 +409,7 @@ impl<'s> Input<'s> {
             let place = definition.place();
             let before = self.defined.insert(name.clone(), (place, None));
             if let (Some((first, Some(reader))), true) =
-                (before, definition.bases.is_empty() && self.mode == Mode::Script)
+                (before, definition.bases.is_empty() && self.mode != Mode::Prompt)
             {
                 self.tell(errors::redefined(name, first, reader, place));
             }
@@ -436,16 +449,22 @@ impl<'s> Input<'s> {
         Ok(())
     }
 
-    fn shown(&self, definition: &Definition, value: &Value, print: bool) -> Event {
+    fn shown(&mut self, definition: &Definition, value: &Value, print: bool) -> Event {
+        self.session.unnamed = None;
         let object = match &definition.statement.kind {
             StatementKind::Expression(Expr { kind: ExprKind::Name(name), .. }) if name.starts_with("gob_") => {
                 Some(name.to_string())
             }
+            // Made of objects, it is one too, though it has no name yet.
+            StatementKind::Expression(_) if definition.reads.iter().any(|(name, _)| names::is_geometric(name)) => {
+                self.session.unnamed = value.varying().filter(|node| !self.session.graph.coordinates(*node).is_empty());
+                self.session.unnamed.map(|_| UNNAMED.to_owned())
+            }
             _ => None,
         };
         let text = match &object {
-            Some(name) => self.session.describe(name),
-            None => value.show(&self.session.graph),
+            Some(name) if name != UNNAMED => self.session.describe(name),
+            _ => value.show(&self.session.graph),
         };
         if print {
             return Event::Printed(text);

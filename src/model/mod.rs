@@ -23,5 +23,5 @@ pub mod value;
 
 pub use environment::{Axis, Object, Role};
 pub use formula::Formula;
-pub use session::{Deps, Event, Outcome, Session};
+pub use session::{Deps, Event, Outcome, Session, UNNAMED};
 pub use value::Value;

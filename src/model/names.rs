@@ -17,6 +17,12 @@ pub fn is_system(name: &str) -> bool {
     name == R_ALPHA || name == R_M
 }
 
+/// Whether the name is that of an object, a primitive or an operation on objects.
+#[must_use]
+pub fn is_geometric(name: &str) -> bool {
+    ["gob_", "pob_", "tr_"].iter().any(|prefix| name.starts_with(prefix))
+}
+
 /// What a statement says of names.
 #[derive(Debug, Default)]
 pub struct Names {

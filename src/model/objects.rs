@@ -6,7 +6,7 @@ use crate::syntax::tree::Name;
 
 use super::environment::{self, Axis, Colour, Object, Role, Tint};
 use super::errors;
-use super::session::Session;
+use super::session::{Session, UNNAMED};
 use super::state::{Declared, Entry, Kept};
 use super::value::{Scalar, Value};
 
@@ -19,6 +19,11 @@ impl Session {
     /// # Errors
     /// Messages for the user: an unknown name, one that fails, one that is no object, types that contradict each other.
     pub fn object(&mut self, name: Option<&str>) -> Asked<Object> {
+        self.object_given(name, &|_| false)
+    }
+
+    /// The same, where the asker gives some coordinates their values: those need no type and no range.
+    pub(super) fn object_given(&mut self, name: Option<&str>, given: &dyn Fn(Coordinate) -> bool) -> Asked<Object> {
         let name = match name {
             Some(name) => Name::from(name),
             None => self.last_object().ok_or_else(|| vec![no_object()])?,
@@ -32,7 +37,7 @@ impl Session {
         for c in (1..=16).map(Coordinate) {
             match self.axis(c, uses.contains(c)) {
                 Ok(Some(axis)) => axes.push(axis),
-                Ok(None) if uses.contains(c) => told.push(environment::untyped(&name, c)),
+                Ok(None) if uses.contains(c) && !given(c) => told.push(environment::untyped(&name, c)),
                 Ok(None) => {}
                 Err(mut errors) => told.append(&mut errors),
             }
@@ -73,6 +78,9 @@ impl Session {
     }
 
     fn function(&self, name: &Name) -> Asked<Scalar> {
+        if let (UNNAMED, Some(node)) = (&**name, self.unnamed) {
+            return Ok(Scalar::Node(node));
+        }
         match self.value(name) {
             Some(Ok(Value::Scalar(scalar))) => Ok(scalar),
             Some(Ok(other)) => Err(vec![

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashSet;
 
 use crate::diagnostic::Diagnostic;
-use crate::field::{Coordinates, Graph};
+use crate::field::{Coordinates, Graph, NodeId};
 use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
@@ -34,7 +34,7 @@ pub enum Event {
         text: String,
         /// The number.
         number: Option<f64>,
-        /// The name, if it is that of an object.
+        /// The name, if it is an object: [`UNNAMED`] for an expression of objects.
         object: Option<String>,
     },
     /// What PRINT printed.
@@ -85,9 +85,14 @@ pub struct Session {
     again: Vec<Name>,
     /// Nodes of the graph after it was last made anew.
     settled: usize,
+    /// The object that the last bare expression made, if it has no name.
+    pub(super) unnamed: Option<NodeId>,
     /// Modelling spaces that were found, of objects of this graph.
     pub(super) searched: Vec<Searched>,
 }
+
+/// The name under which requests find the object that the last bare expression made.
+pub const UNNAMED: &str = "_";
 
 /// Nodes that a session may leave behind before its graph is made anew.
 const LEFT_BEHIND: usize = 1 << 20;
@@ -117,6 +122,7 @@ impl Session {
             seen: FxHashSet::default(),
             again: Vec::new(),
             settled: 0,
+            unnamed: None,
             searched: Vec::new(),
         }
     }
@@ -168,6 +174,7 @@ impl Session {
         if self.graph.len() > LEFT_BEHIND + 2 * self.settled {
             self.graph = Graph::new();
             self.searched.clear();
+            self.unnamed = None;
             self.state.forget_all();
             self.settle();
             self.settled = self.graph.len();

@@ -263,6 +263,12 @@ impl Value {
         }
     }
 
+    /// The node of a scalar that is no constant number.
+    #[must_use]
+    pub fn varying(&self) -> Option<NodeId> {
+        if let Self::Scalar(Scalar::Node(node)) = self { Some(*node) } else { None }
+    }
+
     /// The coordinates that it depends on.
     #[must_use]
     pub fn coordinates(&self, graph: &Graph) -> Coordinates {

@@ -4,10 +4,10 @@ mod asks;
 pub mod commands;
 pub mod helper;
 pub mod history;
+mod listen;
 pub mod look;
 
-use std::io::{BufRead, IsTerminal, Read};
-use std::path::Path;
+use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use rustyline::error::ReadlineError;
@@ -23,17 +23,17 @@ use crate::cli::run::tell;
 use crate::cli::sample::digits;
 use crate::cli::show;
 use crate::cli::status::Status;
-use crate::host::{FileError, Reason, reason, state_folder};
+use crate::host::{FileError, state_folder};
 use crate::interrupt::Costs;
-use crate::limits::Limits;
 use crate::model::request::headline;
 use crate::model::{Event, Session, settings};
 use crate::syntax::Mode;
 use crate::syntax::scan::{Scanner, TokenKind};
 
 use commands::Flow;
-use helper::{Assistant, is_incomplete};
+use helper::Assistant;
 use history::{HISTORY, Lost, Memory};
+use listen::Inputs;
 
 /// One prompt and what it knows.
 #[derive(Debug)]
@@ -124,39 +124,19 @@ impl Repl {
     /// Without a terminal: no banner and no prompt; the first error decides the status.
     fn listen(mut self) -> Status {
         let mut status = Status::Done;
-        let mut pending = String::new();
-        let mut again = 0;
-        let limit = Limits::default().source_bytes;
-        let mut input = std::io::stdin().lock().take(limit as u64 + 1);
+        let mut inputs = Inputs::of_standard_input();
         loop {
-            let line = match next_line(&mut input) {
-                Ok(line) => line,
-                Err(reason) => {
-                    let error = FileError::reading(Path::new("standard input"), reason);
-                    return status.or(self.console.file_error(&error));
-                }
+            let input = match inputs.next() {
+                Ok(Some(input)) => input,
+                Ok(None) => return status,
+                Err(error) => return status.or(self.console.file_error(&error)),
             };
-            let ended = line.is_none();
-            pending.push_str(&line.unwrap_or_default());
-            if pending.len() > limit {
-                let error = FileError::reading(Path::new("standard input"), Reason::TooLarge(limit));
-                return status.or(self.console.file_error(&error));
+            match self.take(&input) {
+                Flow::Leave => return status,
+                Flow::Failed(Status::Cancelled) => return Status::Cancelled,
+                Flow::Failed(failed) => status = status.or(failed),
+                Flow::Go | Flow::Changed => {}
             }
-            if ended || (pending.len() >= again && !is_incomplete(&pending)) {
-                let flow = self.take(&std::mem::take(&mut pending));
-                match flow {
-                    Flow::Leave => return status,
-                    Flow::Failed(Status::Cancelled) => return Status::Cancelled,
-                    Flow::Failed(failed) => status = status.or(failed),
-                    Flow::Go | Flow::Changed => {}
-                }
-            }
-            if ended {
-                return status;
-            }
-            // An input that stays open for long is looked at again only when it has grown by a part of itself: else a
-            // pasted file with an open comment would be parsed once for each of its lines.
-            again = if pending.is_empty() { 0 } else { pending.len() + pending.len() / 256 };
         }
     }
 
@@ -223,20 +203,22 @@ impl Repl {
     fn told_events(&mut self, events: &[Event], mode: Mode) -> Result<(), Status> {
         for event in events {
             match event {
-                Event::Value { object: Some(name), .. } if mode == Mode::Prompt => self.show_object(name)?,
+                Event::Value { object: Some(name), text, .. } if mode == Mode::Prompt => {
+                    self.show_object(name, text)?
+                }
                 other => tell(&self.console, std::slice::from_ref(other), false).map(drop)?,
             }
         }
         Ok(())
     }
 
-    fn show_object(&mut self, name: &str) -> Result<(), Status> {
+    fn show_object(&mut self, name: &str, otherwise: &str) -> Result<(), Status> {
         let making = self.looking_at(name);
         let told = settings::defaults(&mut self.session)
             .and_then(|defaults| headline(&mut self.session, &view(&making, &defaults.view)));
         match told {
             Ok(line) => self.console.print(&line)?,
-            Err(_) => self.console.print(&self.session.describe(name))?,
+            Err(_) => self.console.print(otherwise)?,
         }
         show::glance(&self.console, &mut self.session, &making)
     }
@@ -320,14 +302,6 @@ fn last_value(typed: &str, shown: &str, number: Option<f64>) -> String {
         _ if single.chars().all(|c| c.is_alphanumeric() || c == '_') => single.to_owned(),
         _ => format!("({single})"),
     }
-}
-
-/// A line with its end, as text; nothing at the end of the input.
-fn next_line(input: &mut impl BufRead) -> Result<Option<String>, Reason> {
-    let mut bytes = Vec::new();
-    let count = input.read_until(b'\n', &mut bytes).map_err(|error| reason(&error))?;
-    let text = String::from_utf8(bytes).map_err(|e| Reason::NotText(e.utf8_error().valid_up_to()))?;
-    Ok((count > 0).then_some(text))
 }
 
 /// `NAME?` and `NAME??`: the name, and whether its definition is asked for.

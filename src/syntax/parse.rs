@@ -30,7 +30,9 @@ struct Grammar;
 pub enum Mode {
     /// A file: each statement ends with `;`, only a bare expression at the very end may go without.
     Script,
-    /// The prompt: the last statement may go without its `;`.
+    /// Code of the command line: a script whose last statement may go without its `;`.
+    Code,
+    /// The prompt: the last statement may go without its `;`, and what is not defined yet may still come.
     Prompt,
 }
 

@@ -292,9 +292,37 @@ fn completions_and_the_manual_page_are_there() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         assert!(with_ball(&["completions", shell]).out.contains("resolution"), "{shell}");
     }
-    assert!(with_ball(&["man"]).out.contains(".TH yont"));
+    let man = with_ball(&["man"]).out;
+    assert!(man.contains(".TH yont") && man.contains(".SH YONT SAMPLE"), "{man}");
+    let sample = man.split(".SH YONT SAMPLE").nth(1).and_then(|rest| rest.split(".SH ").next());
+    assert!(sample.is_some_and(|options| options.contains("points")), "{man}");
     assert!(with_ball(&["doc", "sqrt"]).out.contains("SQRT("));
     assert!(with_ball(&["doc", "gob_ball", "--file", "ball.geo"]).out.contains("A ball"));
+}
+
+/// What the command line says of a program holds as what the program says of itself does.
+#[test]
+fn the_command_line_defines() {
+    let range = "r = 2 IN [1, 8]; gob_a = r - x1**2; gob_a(0)";
+    let five = "gob_a = 1 - x1**2 - x2**2 - x5;";
+    for (arguments, out, err, status) in [
+        (&["-e", "a = 4; b = a"][..], "", "", 0),
+        (&["-e", "a = 4", "-e", "a"], "4\n", "", 0),
+        (&["-e", "PRINT 3"], "3\n", "", 0),
+        (&["-e", "a = b"], "", "`b` is not defined", 3),
+        (&["-e", range, "-D", "r=3"], "3\n", "", 0),
+        (&["-e", range, "-D", "r=-1"], "-1\n", "`r` is -1, outside its range [1, 8]", 0),
+        (&["-e", range, "-D", "r=2; q=3"], "", "give -D again", 2),
+        (&["measure", "-e", five, "--at", "x5=0.75", "--resolution", "16"], "area          0.7", "", 0),
+        (&["info", "-e", "a = 1;"], "", "nothing here is an object", 0),
+    ] {
+        let ran = with_ball(arguments);
+        assert_eq!(ran.status, Some(status), "{arguments:?}: {}{}", ran.out, ran.err);
+        assert!(ran.out.contains(out) && ran.err.contains(err), "{arguments:?}: {}{}", ran.out, ran.err);
+    }
+    let folder = folder(&[]);
+    let sampled = run(folder.path(), &["sample", "-e", "gob_a = x5 - x1;"], "1 2 3 4 5\n");
+    assert_eq!((sampled.status, &*sampled.out), (Some(0), "4\n"), "{}", sampled.err);
 }
 
 /// For each option of a run: the arguments without it and with it, which must not give the same.

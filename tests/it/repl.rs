@@ -87,6 +87,24 @@ const PIPED: &[(&str, &str, Words, Words, i32)] = &[
     ("an option that is misspelt", ":set resolutoin 3\n", &[], &["'--resolution'"], 2),
     ("a value that is misspelt", ":set view tpo\n", &[], &["perspective", "'top'"], 2),
     ("words of other languages", "let a = 3\n", &[], &["`a = 3;`"], 3),
+    ("a line that goes on with the one before", "a = 1\n  + 2\n- 5;\n3\n  * a\na\n-a\n", &["-6\n-2\n2\n"], &[], 0),
+    ("an ELSE on its own line", "IF 0 THEN a = 1;\n\n{ or }\nELSE a = 2;\na\n", &["2\n"], &[], 0),
+    ("a WHERE on its own line", "a = q + 1\n  // with\n  WHERE q = 2;\na\n", &["3\n"], &[], 0),
+    ("a command goes on with nothing", "a = 1\n:deps a\n", &["a reads nothing"], &[], 0),
+    (
+        "an object without a name shows itself",
+        "gob_a = 1 - x1**2 - x2**2; gob_b = 9 - x1**2 - (x2 - 1)**2;\ngob_a \\ gob_b\ngob_a & gob_b\n_ AT (0, 0)\n",
+        &["_: 2-D object of x1, x2; empty", "_: 2-D object of x1, x2; x1 from"],
+        &[],
+        0,
+    ),
+    (
+        "a space that was found",
+        "gob_a = 1 - x1**2 - x2**2;\ngob_a\n",
+        &["x1, x2 from -1.05 to 1.05; route cubes"],
+        &[],
+        0,
+    ),
     ("a mesh of the wrong kind", ":mesh a.png\n", &[], &[":render"], 2),
 ];
 
@@ -105,6 +123,20 @@ fn without_a_terminal() {
         assert_eq!(ran.err.is_empty(), err.is_empty(), "{what}: {}", ran.err);
         assert!(!ran.out.contains("yont>") && !ran.out.contains('\x1b'), "{what}: a prompt off a terminal");
         assert!(ran.made.is_empty(), "{what}: left {:?}", ran.made);
+    }
+}
+
+/// What a script means does not hang on how it comes in.
+#[test]
+fn the_examples_run_when_they_are_piped() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    for (name, text) in super::examples::examples() {
+        let ran = run(&examples, &[], &text);
+        assert!(ran.status == Some(0) && !ran.err.contains("error"), "{name}: {}", ran.err);
+        let script = run(&examples, &[&name], "");
+        for line in script.out.lines().filter(|line| !line.starts_with("gob_")) {
+            assert!(ran.out.contains(line), "{name}: no {line:?} in\n{}", ran.out);
+        }
     }
 }
 

@@ -355,6 +355,13 @@ pub fn empty_range(lo: f64, hi: f64, span: Span) -> Diagnostic {
         .at(span, "")
 }
 
+/// A step of a range that does not lead from its smallest to its largest value.
+pub fn bad_step(step: f64, span: Span) -> Diagnostic {
+    Diagnostic::error("bad-step", format!("the STEP of a range cannot be {}", value::number(step)))
+        .at(span, "")
+        .help("a range goes from its smallest to its largest value: write a STEP above 0, or leave it out")
+}
+
 /// A value outside its own range.
 pub fn outside_range(name: &str, v: f64, lo: f64, hi: f64, span: Span) -> Diagnostic {
     let (v, lo, hi) = (value::number(v), value::number(lo), value::number(hi));

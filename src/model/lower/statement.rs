@@ -181,14 +181,17 @@ impl Lower<'_> {
     }
 
     /// `IN [lo, hi] STEP s`: numbers, in order, around the value.
-    pub(super) fn check_range(&mut self, name: &str, value: &Value, range: &Range) -> Lowered<()> {
+    pub(in crate::model) fn check_range(&mut self, name: &str, value: &Value, range: &Range) -> Lowered<()> {
         let lo = self.number(&range.lo, "a bound of a range")?;
         let hi = self.number(&range.hi, "a bound of a range")?;
         if lo > hi || lo.is_nan() || hi.is_nan() {
             return Err(errors::empty_range(lo, hi, range.lo.span.to(range.hi.span)).into());
         }
         if let Some(step) = &range.step {
-            self.number(step, "the STEP of a range")?;
+            let by = self.number(step, "the STEP of a range")?;
+            if by.is_nan() || by <= 0.0 {
+                return Err(errors::bad_step(by, step.span).into());
+            }
         }
         match value {
             Value::Scalar(Scalar::Number(v)) if (lo..=hi).contains(v) => Ok(()),

@@ -122,7 +122,8 @@ pub fn sample(session: &mut Session, view: &View, points: &[Vec<f64>], gradient:
 /// # Errors
 /// As [`sample`].
 pub fn sampling(session: &mut Session, view: &View, width: usize, gradient: bool) -> Asked<Sampling> {
-    let object = session.object(view.object.as_deref())?;
+    let placed = |c: Coordinate| usize::from(c.0) <= width || view.at.iter().any(|at| at.0 == c);
+    let object = session.object_given(view.object.as_deref(), &placed)?;
     let mut fixed = view.at.clone();
     for axis in &object.axes {
         if let Role::Constant(value) = axis.role
@@ -148,7 +149,8 @@ pub fn sampling(session: &mut Session, view: &View, width: usize, gradient: bool
 /// # Errors
 /// Messages for the user: what is missing or makes no sense.
 pub(super) fn alone(session: &mut Session, view: &View, timing: &Timing) -> Asked<Subject> {
-    let mut object = session.object(view.object.as_deref())?;
+    let fixed = |c: Coordinate| view.at.iter().any(|at| at.0 == c);
+    let mut object = session.object_given(view.object.as_deref(), &fixed)?;
     override_axes(&mut object, view);
     let mut told = Vec::new();
     let mut subject = Subject::of(object.name.clone(), object.node, Place::new());
@@ -232,8 +234,14 @@ fn override_axes(object: &mut Object, view: &View) {
         }
     }
     for &(c, value) in &view.at {
-        if let Some(axis) = object.axes.iter_mut().find(|a| a.coordinate == c) {
-            axis.role = Role::Constant(value);
+        let role = Role::Constant(value);
+        match object.axes.iter_mut().find(|a| a.coordinate == c) {
+            Some(axis) => axis.role = role,
+            None if object.uses.contains(c) => {
+                let (range, ends, delta) = Default::default();
+                object.axes.push(environment::Axis { coordinate: c, role, declared: false, range, ends, delta });
+            }
+            None => {}
         }
     }
 }

@@ -243,7 +243,8 @@ impl Making<'_> {
         }
         let have: Vec<String> = self.subject.axes.iter().map(|a| a.coordinate.to_string()).collect();
         let name = &self.subject.name;
-        let title = format!("{what} needs {axes} axes; `{name}` has {} here: {}", have.len(), have.join(", "));
+        let list = if have.is_empty() { String::new() } else { format!(": {}", have.join(", ")) };
+        let title = format!("{what} needs {axes} axes; `{name}` has {} here{list}", have.len());
         let help = if have.len() < axes {
             "make a further coordinate an axis (`x3 : Z; x3min = -1; x3max = 1;`), or ask for a .png".into()
         } else {

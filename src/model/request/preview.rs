@@ -5,8 +5,9 @@ use crate::picture::Image;
 
 use super::make::Workshop;
 use super::pictures::{Artist, view};
-use super::subject::Subject;
-use super::{Background, Options, View, together};
+use super::space::plain;
+use super::subject::{Axis, Subject};
+use super::{Background, Options, Timing, View, together};
 use crate::model::environment::Object;
 use crate::model::session::Session;
 
@@ -91,22 +92,33 @@ fn shrunk(image: Image, within: [usize; 2]) -> Image {
 /// # Errors
 /// Messages for the user: an unknown name, one that is no object.
 pub fn headline(session: &mut Session, view: &View) -> Result<String, Vec<Diagnostic>> {
-    let object = session.object(view.object.as_deref())?;
-    Ok(line(&object))
+    let object = session.object_given(view.object.as_deref(), &|c| view.at.iter().any(|at| at.0 == c))?;
+    Ok(match together::subject(session, view, &Timing::default()) {
+        Ok(subject) => line(&object, &subject.axes, ""),
+        Err(told) => line(&object, &[], told.first().map_or("", |told| told.code)),
+    })
 }
 
-fn line(object: &Object) -> String {
+/// The line; `space` is the modelling space where it is known, given or found, `trouble` the code of what is in the way.
+fn line(object: &Object, space: &[Axis], trouble: &str) -> String {
     let names: Vec<String> = object.uses.iter().map(|c| c.to_string()).collect();
     let mut bounds: Vec<(String, (f64, f64))> = Vec::new();
     for axis in &object.axes {
-        let Some(range) = axis.range else { continue };
+        let known = space.iter().find(|known| known.coordinate == axis.coordinate).map(|known| known.range.into());
+        let Some(range) = known.or(axis.range) else { continue };
         match bounds.iter_mut().find(|(_, known)| *known == range) {
             Some((names, _)) => *names += &format!(", {}", axis.coordinate),
             None => bounds.push((axis.coordinate.to_string(), range)),
         }
     }
-    let bounds: Vec<String> = bounds.iter().map(|(names, (lo, hi))| format!("{names} from {lo} to {hi}")).collect();
-    let bounds = if bounds.is_empty() { "no bounds yet".into() } else { bounds.join("; ") };
+    let bounds: Vec<String> =
+        bounds.iter().map(|(names, (lo, hi))| format!("{names} from {} to {}", plain(*lo), plain(*hi))).collect();
+    let bounds = match trouble {
+        _ if !bounds.is_empty() => bounds.join("; "),
+        "empty-object" => "empty".into(),
+        "endless-object" => "without end".into(),
+        _ => "no bounds yet".into(),
+    };
     let route = if matches!(object.space().len(), 2 | 3) { "; route cubes" } else { "" };
     format!("{}: {}-D object of {}; {bounds}{route}", object.name, names.len(), names.join(", "))
 }
