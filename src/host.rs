@@ -146,7 +146,9 @@ impl FileError {
 
     fn help(&self) -> Option<&'static str> {
         Some(match (&self.reason, self.doing) {
-            (Reason::Missing, _) => "a relative path begins beside the program that names it, or on the command line in the current folder",
+            (Reason::Missing, _) => {
+                "a relative path begins beside the program that names it, or on the command line in the current folder"
+            }
             (Reason::NoFolder, _) => "make the folder first, or write to another one",
             (Reason::Folder, _) => "name a file in it",
             (Reason::Special(_), Doing::Reading) => "copy its content into a file, or use `-` for standard input",

@@ -181,7 +181,10 @@ fn ranges_of_regions_hold_the_values() {
                         assert!(same(value, special), "{script}: {special} and not {value}");
                     } else {
                         assert!(!range.is_positive() || value >= 0.0, "{script}: {value} in {range:?}");
-                        assert!(!range.is_negative() || value.is_nan() || value < 0.0, "{script}: {value} in {range:?}");
+                        assert!(
+                            !range.is_negative() || value.is_nan() || value < 0.0,
+                            "{script}: {value} in {range:?}"
+                        );
                         assert_eq!(value >= 0.0, special >= 0.0, "{script}");
                     }
                 }

@@ -9,8 +9,8 @@ use crate::field::Coordinates;
 use crate::model::environment::{Axis, Object, Role};
 use crate::model::session::Session;
 
-use super::together::subject;
 use super::space::plain;
+use super::together::subject;
 use super::{Timing, View};
 
 /// What there is to know of one object.

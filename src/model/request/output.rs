@@ -150,7 +150,9 @@ fn meant(extension: &str) -> String {
         (Some(near), _) => format!("did you mean `.{near}`?"),
         (None, "jpg" | "jpeg" | "bmp" | "webp" | "tif" | "tiff") => "a picture is a `.png`".into(),
         (None, "mp4" | "webm" | "avi") => "an animation is a `.gif` or an `.apng`".into(),
-        (None, "step" | "stp" | "iges" | "off" | "amf" | "fbx" | "gltf") => "a mesh is a `.stl .obj .ply .glb` or `.3mf`".into(),
+        (None, "step" | "stp" | "iges" | "off" | "amf" | "fbx" | "gltf") => {
+            "a mesh is a `.stl .obj .ply .glb` or `.3mf`".into()
+        }
         (None, _) => known(),
     }
 }
