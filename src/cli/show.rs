@@ -123,7 +123,8 @@ mod tests {
     #[test]
     fn the_environment_tells_what_a_terminal_understands() {
         use Drawing::{Halves, Iterm, Kitty, Sixel, TrueHalves};
-        let cases: &[(&[(&str, &str)], Option<Drawing>)] = &[
+        type Case<'a> = (&'a [(&'a str, &'a str)], Option<Drawing>);
+        let cases: &[Case<'_>] = &[
             (&[], None),
             (&[("TERM", "dumb")], None),
             (&[("TERM", "xterm-kitty"), ("KITTY_WINDOW_ID", "1")], Some(Kitty)),

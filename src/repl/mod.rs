@@ -214,7 +214,7 @@ impl Repl {
 
     fn show_object(&mut self, name: &str, otherwise: &str) -> Result<(), Status> {
         let making = self.looking_at(name);
-        let told = settings::defaults(&mut self.session)
+        let told = settings::defaults(&self.session)
             .and_then(|defaults| headline(&mut self.session, &view(&making, &defaults.view)));
         match told {
             Ok(line) => self.console.print(&line)?,

@@ -155,7 +155,7 @@ fn bend(dimension: usize, slope: impl Fn(usize) -> [f64; 3], step: f64) -> Optio
     let g = slope(0);
     let steepness = dot(g, g).sqrt();
     let mut second = [[0.0; 3]; 3];
-    for axis in 0..dimension {
+    for (axis, row) in second.iter_mut().enumerate().take(dimension) {
         let (below, above) = (slope(2 * axis + 1), slope(2 * axis + 2));
         for d in 0..dimension {
             let (left, right) = ((g[d] - below[d]) / step, (above[d] - g[d]) / step);
@@ -163,7 +163,7 @@ fn bend(dimension: usize, slope: impl Fn(usize) -> [f64; 3], step: f64) -> Optio
             if (left - right).abs() > 0.05 * (left.abs() + right.abs()) + 1e-9 * steepness / step {
                 return None;
             }
-            second[axis][d] = 0.5 * (left + right);
+            row[d] = 0.5 * (left + right);
         }
     }
     let s = |i: usize, j: usize| 0.5 * (second[i][j] + second[j][i]);

@@ -75,7 +75,7 @@ pub fn find(program: Arc<Program>, known: &[Known], work: usize, interrupt: &Int
     if search.sought.is_empty() {
         return Ok(Outcome::Within(search.outer, Proof::Everywhere));
     }
-    let endless = match search.from_infinity()? {
+    let endless = match search.hem_in()? {
         Ends::Nothing => return Ok(Outcome::Empty(true, search.best)),
         Ends::Endless(all) => return Ok(Outcome::Endless(all)),
         Ends::Open => true,
@@ -91,7 +91,7 @@ pub fn find(program: Arc<Program>, known: &[Known], work: usize, interrupt: &Int
     }
     let far = search.far_ends();
     if !far.is_empty() || search.inner.is_none() {
-        if let Some(ends) = search.from_samples()? {
+        if let Some(ends) = search.guess()? {
             return Ok(Outcome::Endless(ends));
         }
         proof = Proof::Samples;

@@ -147,7 +147,7 @@ fn threemf_holds_the_mesh_its_colours_and_a_thumbnail() {
     let mesh = ball(3, 2.5, [1., -2., 3.]);
     let colours = colours(&mesh);
     let mut picture = Vec::new();
-    apng::write(&[Image::new(16, 16, [9, 8, 7])], 1., &mut picture).unwrap();
+    apng::write(&[Image::new(16, 16, [9, 8, 7])], 1., &mut picture).expect("a picture");
     let mut bytes = Vec::new();
     let name = "a <b> & \"c\"";
     threemf::write(&[coloured(name, &mesh, &colours)], Some(&picture), name, &mut bytes).unwrap();
@@ -372,7 +372,7 @@ fn refused(parts: &[Part], bytes: &mut Vec<u8>) {
     assert!(glb::write(parts, "a", bytes).is_err());
     assert!(threemf::write(parts, None, "a", bytes).is_err());
     assert!(obj::write(parts, bytes).is_err());
-    let last = parts.last().unwrap();
+    let last = parts.last().expect("a part");
     assert!(ply::write(last, bytes).is_err() && stl::write(last, bytes).is_err());
 }
 

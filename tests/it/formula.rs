@@ -57,7 +57,7 @@ fn come_back(session: &mut Session, what: &str) -> usize {
         let mut again = self::session();
         let outcome = again.input("formula", &formula.text, Mode::Script);
         assert!(outcome.accepted, "{what}: {name}: {}\n{}", messages(&outcome), formula.text);
-        assert_eq!(again.names(), [name.clone()], "{what}: it stands on nothing else");
+        assert_eq!(again.names(), std::slice::from_ref(name), "{what}: it stands on nothing else");
         let pairs = object_values(session, name).into_iter().zip(object_values(&mut again, name));
         for (before, after) in pairs {
             let same = before.to_bits() == after.to_bits() || before.is_nan() && after.is_nan();

@@ -94,7 +94,7 @@ const PIPED: &[(&str, &str, Words, Words, i32)] = &[
     (
         "an object without a name shows itself",
         "gob_a = 1 - x1**2 - x2**2; gob_b = 9 - x1**2 - (x2 - 1)**2;\ngob_a \\ gob_b\ngob_a & gob_b\n_ AT (0, 0)\n",
-        &["_: 2-D object of x1, x2; empty", "_: 2-D object of x1, x2; x1 from"],
+        &["_: 2-D object of x1, x2; empty", "_: 2-D object of x1, x2; x1, x2 from -1.05"],
         &[],
         0,
     ),

@@ -81,7 +81,8 @@ fn words_of_the_language_are_explained() {
 
 #[test]
 fn the_file_of_settings() {
-    let cases: &[(&str, &[&str], &[&str], &[&str], i32)] = &[
+    type Words<'a> = &'a [&'a str];
+    let cases: &[(&str, Words<'_>, Words<'_>, Words<'_>, i32)] = &[
         ("# nothing\n\n", &["ball.geo", "-o", "a.png", "-v"], &[], &["640 x 480"], 0),
         ("size 32x24\n", &["ball.geo", "-o", "a.png", "-v"], &[], &["32 x 24 pixels"], 0),
         ("size = 32x24 # small\n", &["-v", "run", "ball.geo", "-o", "a.png"], &[], &["32 x 24 pixels"], 0),

@@ -45,7 +45,7 @@ fn gathered(
     if number == 0 {
         return Err(DataError::Header { line: header.lines, what: "`data file: LIST` lists no file".into() });
     }
-    if count as u64 % number != 0 {
+    if !(count as u64).is_multiple_of(number) {
         let what = format!("{count} numbers cannot lie in {number} files of one size");
         return Err(DataError::Header { line: header.lines, what });
     }

@@ -183,7 +183,7 @@ pub(super) fn alone(session: &mut Session, view: &View, timing: &Timing) -> Aske
         return Err(told);
     }
     subject.span = session.place(&object.name);
-    subject.colouring = object.colour.clone();
+    subject.colouring = object.colour;
     subject.precision = view.precision;
     space::settle(session, &mut subject, &object).map_err(|told| vec![told])?;
     Ok(subject)

@@ -56,7 +56,7 @@ impl Workshop<'_> {
             let shape = moment.map_or_else(|| shape.clone(), |moment| one.at(&shape, moment));
             let axes = one.axes.iter().map(|axis| (axis.range[0], axis.range[1]));
             let ranges: Vec<(f64, f64)> = axes.chain(shape.fixed.iter().map(|&value| (value, value))).collect();
-            reach(shape.program.clone(), &ranges, PART, self.limits.search_operations / 30, self.interrupt).ok()?
+            reach(shape.program, &ranges, PART, self.limits.search_operations / 30, self.interrupt).ok()?
         };
         let is_found = subject.columns.is_none() && subject.rows.is_none() && subject.all().all(Subject::is_single);
         match subject.all().filter(|_| is_found).find_map(|one| Some((one, of(one)?))) {

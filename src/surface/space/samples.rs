@@ -8,7 +8,7 @@ use crate::interrupt::Cancelled;
 
 impl Search<'_> {
     /// Where intervals fail: points at all scales, then about what they found. Gives the directions in which it goes on, if it does.
-    pub(super) fn from_samples(&mut self) -> Result<Option<Vec<(usize, bool)>>, Cancelled> {
+    pub(super) fn guess(&mut self) -> Result<Option<Vec<(usize, bool)>>, Cancelled> {
         let ends = self.ends();
         let whole = self.outer.clone();
         let sought: Vec<usize> = self.sought.iter().map(|s| s.0).collect();

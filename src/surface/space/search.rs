@@ -147,7 +147,7 @@ impl<'a> Search<'a> {
     }
 
     /// Brings all ends from infinity to somewhere finite; each that is found may help with the others.
-    pub(super) fn from_infinity(&mut self) -> Result<Ends, Cancelled> {
+    pub(super) fn hem_in(&mut self) -> Result<Ends, Cancelled> {
         let mut endless = Vec::new();
         loop {
             let mut open = self.ends();
