@@ -429,6 +429,6 @@ fn several_objects_keep_their_names_and_colours() {
 
 fn thumbnail() -> Vec<u8> {
     let mut picture = Vec::new();
-    apng::write(&[Image::new(256, 256, [9, 8, 7])], 1., &mut picture).unwrap();
+    apng::write(&[Image::new(256, 256, [9, 8, 7])], 1., &mut picture).expect("a picture");
     picture
 }
