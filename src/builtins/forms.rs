@@ -154,4 +154,31 @@ pub(super) static TABLE: &[Builtin] = &[
         "A volume's value at the world coordinates e1, e2, e3: \"nearest\", \"trilinear\" or \"tricubic\", of a 1-D to 3-D grid in a file.",
         ("INTERPOLATE(\"trilinear\", \"ramp.nrrd\", 0.25)", 0.25),
     ),
+    entry(
+        Special::Polygon,
+        Data,
+        "POLYGON",
+        &["px", "py"],
+        "The simple polygon with the vertices (px[i], py[i]) in the plane of x1 and x2: positive inside, each edge's half-plane once, joined \
+         by | and & of the system in force.",
+        ("POLYGON([0, 4, 4, 0], [0, 0, 4, 4]) AT (x1 = -1, x2 = 2) < 0", 1.0),
+    ),
+    entry(
+        Special::Contours,
+        Data,
+        "CONTOURS",
+        &["contours"],
+        "The region inside an odd number of contours, each [px, py] as for POLYGON: outlines with holes, and islands in them. Contours may \
+         lie within each other but not meet.",
+        ("CONTOURS([[[0, 4, 4, 0], [0, 0, 4, 4]], [[1, 3, 3, 1], [1, 1, 3, 3]]]) AT (x1 = 2, x2 = 2) < 0", 1.0),
+    ),
+    entry(
+        Special::Medial,
+        Data,
+        "MEDIAL",
+        &["P", "R", "edges"],
+        "The body about a medial axis: the points are the rows of P, each with a radius from R, joined along edges, rows of two numbers of \
+         points; the radius runs linearly along an edge. Its value is R^2 less the squared distance, the highest over the edges.",
+        ("MEDIAL([[0, 0, 0], [4, 0, 0]], [1, 1], [[1, 2]]) AT (x1 = 2, x2 = 0.5, x3 = 0)", 0.75),
+    ),
 ];

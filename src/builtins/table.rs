@@ -110,6 +110,12 @@ pub enum Special {
     OffsetBall,
     /// `INTERPOLATE(kind, file, e1, ...)`
     Interpolate,
+    /// `POLYGON(px, py)`
+    Polygon,
+    /// `CONTOURS([[px, py], ...])`
+    Contours,
+    /// `MEDIAL(P, R, edges)`
+    Medial,
 }
 
 /// A formula over the primitives; `Argument(0)` is the first argument.
@@ -226,9 +232,10 @@ impl Builtin {
                 S::Sum | S::Product | S::Union | S::Intersection | S::Minimum | S::Maximum | S::Array => {
                     Arity::Exactly(1)
                 }
-                S::Len | S::Norm | S::Grad => Arity::Exactly(1),
+                S::Len | S::Norm | S::Grad | S::Contours => Arity::Exactly(1),
                 S::Join => Arity::AtLeast(2),
-                S::Dot | S::Cross | S::Random | S::Diff | S::OffsetBall => Arity::Exactly(2),
+                S::Dot | S::Cross | S::Random | S::Diff | S::OffsetBall | S::Polygon => Arity::Exactly(2),
+                S::Medial => Arity::Exactly(3),
                 S::Project => Arity::Exactly(4),
                 S::Interpolate => Arity::Between(3, 5),
             },

@@ -1,4 +1,4 @@
-//! Decodes volumes from bytes into leaves. Knows no disk: it gets bytes, and asks a callback for the file that a header names.
+//! Decodes volumes from bytes into leaves, and polygons into formulas. Knows no disk: it gets bytes, and asks a callback for the file that a header names.
 //!
 //! Formats: NRRD ([`nrrd`]), raw files named `name_WxHxD_type.raw` ([`raw`]), text `.dat` files ([`text`]). A file that starts with
 //! `NRRD` is an NRRD whatever its name. Nothing here panics on any bytes, and nothing takes more memory than the limits say: a
@@ -8,6 +8,7 @@ pub mod error;
 pub mod interpolate;
 pub mod nrrd;
 pub mod place;
+pub mod polygon;
 pub mod pyramid;
 pub mod raw;
 pub mod stream;

@@ -20,6 +20,7 @@ mod mesh;
 mod mutants;
 mod number;
 mod oracle;
+mod outlines;
 mod outputs;
 mod parser;
 mod picture;

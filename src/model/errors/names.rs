@@ -180,6 +180,27 @@ pub fn wrong_builtin_kind(builtin: &Builtin, value: &Value, wanted: &str, span: 
         .fact(builtin.doc)
 }
 
+/// An array whose elements a built-in has no use for.
+pub fn wrong_builtin_shape(builtin: &Builtin, wanted: &str, span: Span) -> Diagnostic {
+    Diagnostic::error("wrong-kind", format!("`{}` needs {wanted} here", builtin.signature()))
+        .at(span, "")
+        .fact(builtin.doc)
+}
+
+/// A radius of MEDIAL that no ball can have.
+pub fn bad_radius(place: usize, radius: f64, span: Span) -> Diagnostic {
+    Diagnostic::error("bad-radius", format!("radius {place} is {radius}: a radius is finite, and 0 or more"))
+        .at(span, "")
+        .help("give each point a radius of 0 or more")
+}
+
+/// An edge of MEDIAL that does not join two of its points.
+pub fn bad_edge(place: usize, points: usize, span: Span) -> Diagnostic {
+    Diagnostic::error("bad-edge", format!("edge {place} does not join two of the points"))
+        .at(span, "")
+        .help(format!("an edge is [i, j] with whole numbers from 1 to {points}, the number of points"))
+}
+
 /// A call of something that is neither a function nor an object.
 pub fn not_callable(name: &str, value: &Value, span: Span) -> Diagnostic {
     let told = Diagnostic::error(

@@ -115,6 +115,9 @@ impl Lower<'_> {
             Special::Grad => return self.grad(&arguments[0], span),
             Special::Project => return self.project(arguments, span),
             Special::OffsetBall => return self.offset_ball(arguments, span),
+            Special::Polygon => return self.polygon(builtin, arguments, span),
+            Special::Contours => return self.contours(builtin, arguments, span),
+            Special::Medial => return self.medial(builtin, arguments, span),
             Special::Interpolate => return self.interpolate(builtin, arguments, span),
         };
         self.fold_array(op, builtin, &arguments[0], span)

@@ -11,6 +11,7 @@ mod expr;
 mod extremum;
 mod fold;
 mod operators;
+mod outline;
 mod repeat;
 mod statement;
 
