@@ -11,6 +11,7 @@ use crate::field::{Coordinates, Graph, NodeId};
 use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
+use crate::reuse::Reuse;
 use crate::source::{SourceId, SourceMap, Span};
 use crate::syntax::Mode;
 use crate::syntax::tree::Name;
@@ -107,10 +108,11 @@ impl Session {
     /// A session that knows nothing yet.
     #[must_use]
     pub fn new(host: Arc<dyn Host>, limits: Limits, interrupt: Interrupt) -> Self {
+        let reuse_bytes = limits.reuse_bytes;
         Self {
             host,
             limits,
-            interrupt,
+            interrupt: interrupt.keeping(Reuse::within(reuse_bytes)),
             sources: SourceMap::default(),
             state: State::default(),
             graph: Graph::new(),
@@ -229,6 +231,13 @@ impl Session {
     #[must_use]
     pub fn limits(&self) -> &Limits {
         &self.limits
+    }
+
+    /// Begins a question: results of earlier ones that it does not ask for may make room for its own.
+    pub(super) fn turn(&self) {
+        if let Some(reuse) = self.interrupt.reuse() {
+            reuse.turn();
+        }
     }
 
     /// The cancel token.
