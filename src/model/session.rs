@@ -11,6 +11,7 @@ use crate::field::{Coordinates, Graph, NodeId};
 use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
+use crate::reuse::Reuse;
 use crate::source::{SourceId, SourceMap, Span};
 use crate::syntax::Mode;
 use crate::syntax::tree::Name;
@@ -111,17 +112,18 @@ impl Session {
         Self::over(Some(Library::shared()), host, limits, interrupt)
     }
 
-    /// A session without the library: the "Empty Case" of \[P95\] 3.4, in which everything is still to be defined.
+    /// A session without the library: the "Empty Case" of \[P95\] 3.3, in which everything is still to be defined.
     #[must_use]
     pub fn bare(host: Arc<dyn Host>, limits: Limits, interrupt: Interrupt) -> Self {
         Self::over(None, host, limits, interrupt)
     }
 
     fn over(library: Option<&'static Library>, host: Arc<dyn Host>, limits: Limits, interrupt: Interrupt) -> Self {
+        let reuse_bytes = limits.reuse_bytes;
         Self {
             host,
             limits,
-            interrupt,
+            interrupt: interrupt.keeping(Reuse::within(reuse_bytes)),
             sources: library.map(Library::sources).unwrap_or_default(),
             state: State::over(library),
             graph: Graph::new(),
@@ -240,6 +242,13 @@ impl Session {
     #[must_use]
     pub fn limits(&self) -> &Limits {
         &self.limits
+    }
+
+    /// Begins a question: results of earlier ones that it does not ask for may make room for its own.
+    pub(super) fn turn(&self) {
+        if let Some(reuse) = self.interrupt.reuse() {
+            reuse.turn();
+        }
     }
 
     /// The cancel token.

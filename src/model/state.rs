@@ -58,6 +58,8 @@ pub enum Change {
     Pinned(Name, bool),
     /// A kept value. Only for taking back a failed input; accepted ones drop these.
     Kept(DefinitionId, Option<Kept>),
+    /// The Cartesian products that a value is made with; the same holds.
+    Products(DefinitionId, Vec<[Coordinates; 2]>),
     /// The end of the list of statements: its length and what stood beyond.
     Program(usize, Vec<Entry>),
 }
@@ -297,6 +299,7 @@ impl State {
     pub fn note_product(&mut self, id: DefinitionId, sides: [Coordinates; 2]) {
         let all = self.products.entry(id).or_default();
         if all.len() < MOST_PRODUCTS && !all.contains(&sides) {
+            self.journal.push(Change::Products(id, all.clone()));
             all.push(sides);
         }
     }
@@ -338,7 +341,8 @@ impl State {
         let mut waiting: Vec<Arc<Definition>> = self.readers.get(name).map(|r| r.iter().collect()).unwrap_or_default();
         while let Some(definition) = waiting.pop() {
             let Some(kept) = self.kept.remove(&definition.id) else { continue };
-            self.products.remove(&definition.id);
+            let products = self.products.remove(&definition.id).unwrap_or_default();
+            self.journal.push(Change::Products(definition.id, products));
             self.journal.push(Change::Kept(definition.id, Some(kept)));
             for output in &definition.outputs {
                 if self.is_current_for(output, &definition) {
@@ -420,6 +424,7 @@ impl State {
                     None => self.kept.remove(id),
                 };
             }
+            Change::Products(id, products) => std::mem::swap(self.products.entry(*id).or_default(), products),
             Change::Program(length, beyond) => {
                 let end = self.program.len();
                 let cut = self.program.split_off((*length).min(end));
@@ -467,7 +472,7 @@ impl State {
     /// Closes an accepted input and gives the changes that undo it.
     pub fn accept(&mut self, mark: &Mark) -> Vec<Change> {
         let mut changes = self.journal.split_off(mark.journal.min(self.journal.len()));
-        changes.retain(|c| !matches!(c, Change::Kept(..)));
+        changes.retain(|c| !matches!(c, Change::Kept(..) | Change::Products(..)));
         if self.program.len() > mark.program {
             changes.push(Change::Program(mark.program, Vec::new()));
         }
