@@ -132,7 +132,7 @@ impl Session {
         while let Some(next) = waiting.pop_front().filter(|_| all.len() < LOOKED_THROUGH) {
             if seen.insert(next.id) {
                 waiting.extend(next.bases.iter().filter_map(|(_, base)| base.clone()));
-                waiting.extend(next.reads.iter().filter_map(|(name, _)| self.state.get(name).cloned()));
+                waiting.extend(next.reads.iter().filter_map(|(name, _)| self.state.find_for(&next, name).cloned()));
                 all.push(next);
             }
         }

@@ -10,6 +10,7 @@ use crate::field::Coordinates;
 use crate::syntax::tree::{GeometricType, Name};
 
 use super::definition::{Definition, DefinitionId, SystemInForce};
+use super::library::Library;
 use super::value::Value;
 
 /// The kept result of a definition.
@@ -90,6 +91,8 @@ pub struct State {
     stale: Vec<Arc<Definition>>,
     /// Kept results after the last sweep.
     swept: usize,
+    /// The library, unless the session goes without.
+    library: Option<&'static Library>,
 }
 
 /// Cartesian products that are remembered of one definition.
@@ -117,13 +120,44 @@ impl Readers {
 }
 
 impl State {
-    /// The definition of a name.
+    /// A state that knows nothing but the library, or nothing at all.
+    #[must_use]
+    pub fn over(library: Option<&'static Library>) -> Self {
+        Self { library, ..Self::default() }
+    }
+
+    /// The library, unless the session goes without.
+    #[must_use]
+    pub fn library(&self) -> Option<&'static Library> {
+        self.library
+    }
+
+    /// What a name means to the user: the user's own definition, else the library's.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<&Arc<Definition>> {
+        self.names.get(name).or_else(|| self.library?.get(name))
+    }
+
+    /// What a name means in the formula of a definition: the library's definitions see the library's names, whatever the user
+    /// defines.
+    #[must_use]
+    pub fn find_for(&self, reader: &Definition, name: &str) -> Option<&Arc<Definition>> {
+        if reader.is_library() { self.library?.get(name) } else { self.find(name) }
+    }
+
+    /// Whether the name is the library's, and not the user's.
+    #[must_use]
+    pub fn is_library(&self, name: &str) -> bool {
+        !self.names.contains_key(name) && self.library.is_some_and(|library| library.has(name))
+    }
+
+    /// The user's definition of a name.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Arc<Definition>> {
         self.names.get(name)
     }
 
-    /// All names that are defined, in no order.
+    /// All names that the user defined, in no order.
     pub fn names(&self) -> impl Iterator<Item = &Name> {
         self.names.keys()
     }

@@ -36,6 +36,7 @@ mod scenes;
 mod session;
 mod slips;
 mod solids;
+mod stdlib;
 mod tidy;
 mod usage;
 mod volumes;
