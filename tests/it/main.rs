@@ -12,6 +12,7 @@ mod field;
 mod formats;
 mod formula;
 mod hostile;
+mod incremental;
 mod interrupts;
 mod language;
 mod limits;
