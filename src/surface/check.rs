@@ -4,11 +4,16 @@
 //! vertices become one by that rounding; each directed edge is used once and its reverse once; the triangles about a vertex are one fan.
 //! Not checked: whether triangles cut through each other.
 
+use std::borrow::Cow;
 use std::fmt;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::prelude::*;
 
 use super::mesh::Mesh;
+
+/// Triangles about a vertex that are few.
+const FEW: usize = 32;
 
 /// What is wrong with a mesh, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +86,7 @@ pub fn check(mesh: &Mesh) -> Result<Topology, Fault> {
     let triangles = mesh.triangles.len();
     let edges = triangles * 3 / 2;
     let euler = vertices as i64 - edges as i64 + triangles as i64;
-    let components = components(mesh);
+    let components = components(mesh, |v| corners.start[v] < corners.start[v + 1]);
     Ok(Topology { vertices, edges, triangles, euler, components, genus: components as i64 - euler / 2 })
 }
 
@@ -95,6 +100,9 @@ fn check_vertices(mesh: &Mesh) -> Result<(), Fault> {
     if let Some(v) = mesh.positions.par_iter().position_first(is_bad) {
         return Err(Fault::NotFinite(v));
     }
+    if !has_twins(&mesh.positions) {
+        return Ok(());
+    }
     let mut rounded: Vec<([u32; 3], usize)> =
         mesh.positions.par_iter().enumerate().map(|(v, &p)| (single(p), v)).collect();
     rounded.par_sort_unstable();
@@ -103,6 +111,31 @@ fn check_vertices(mesh: &Mesh) -> Result<(), Fault> {
         Some((a, b)) => Err(Fault::Coincident(a, b, mesh.positions[a])),
         None => Ok(()),
     }
+}
+
+/// Whether two vertices are one in single precision: each is put into a table at the place of its hash, or behind it. Which of two comes
+/// first depends on the threads; whether there are two does not.
+fn has_twins(positions: &[[f64; 3]]) -> bool {
+    let size = (2 * positions.len()).next_power_of_two().max(2);
+    let shift = 64 - size.trailing_zeros();
+    let places: Vec<AtomicU32> = (0..size).into_par_iter().map(|_| AtomicU32::new(u32::MAX)).collect();
+    positions.par_iter().enumerate().with_min_len(1024).any(|(v, &position)| {
+        let bits = single(position);
+        let mut at = (hash(bits) >> shift) as usize;
+        loop {
+            match places[at].compare_exchange(u32::MAX, v as u32, Ordering::Relaxed, Ordering::Relaxed) {
+                Ok(_) => return false,
+                Err(other) if single(positions[other as usize]) == bits => return true,
+                Err(_) => at = (at + 1) % size,
+            }
+        }
+    })
+}
+
+/// A number whose upper bits depend on all bits: multiplied by large odd constants.
+fn hash([a, b, c]: [u32; 3]) -> u64 {
+    let mixed = (u64::from(a) | u64::from(b) << 32).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    (mixed.rotate_left(29) ^ u64::from(c)).wrapping_mul(0xd6e8_feb8_6659_fd93)
 }
 
 fn check_triangles(mesh: &Mesh) -> Result<(), Fault> {
@@ -148,18 +181,26 @@ impl Corners {
     fn fault(&self, mesh: &Mesh, v: usize) -> Option<Fault> {
         let about = &self.sides[self.start[v]..self.start[v + 1]];
         let (from, place) = (mesh.positions[v], |v: u32| mesh.positions[v as usize]);
-        let mut outgoing = about.to_vec();
-        outgoing.sort_unstable();
-        if let Some(pair) = outgoing.windows(2).find(|pair| pair[0][0] == pair[1][0]) {
-            return Some(Fault::Repeated(from, place(pair[0][0])));
+        // A few are compared with each other; many are sorted.
+        let mut outgoing = Cow::Borrowed(about);
+        let is_sorted = about.len() > FEW;
+        if is_sorted {
+            outgoing.to_mut().sort_unstable();
         }
-        let find = |other: u32| outgoing.binary_search_by_key(&other, |side| side[0]);
-        if let Some(side) = about.iter().find(|side| find(side[1]).is_err()) {
+        let find = |other: u32| match is_sorted {
+            true => outgoing.partition_point(|side| side[0] < other),
+            false => outgoing.iter().position(|side| side[0] == other).unwrap_or(outgoing.len()),
+        };
+        let is_there = |other: u32| outgoing.get(find(other)).is_some_and(|side| side[0] == other);
+        if let Some((_, side)) = outgoing.iter().enumerate().find(|(i, side)| find(side[0]) != *i) {
+            return Some(Fault::Repeated(from, place(side[0])));
+        }
+        if let Some(side) = about.iter().find(|side| !is_there(side[1])) {
             return Some(Fault::Open(place(side[1]), from));
         }
         let mut at = 0;
         for turn in 1..=outgoing.len() {
-            at = find(outgoing[at][1]).unwrap_or(0);
+            at = find(outgoing[at][1]);
             if at == 0 {
                 return (turn < outgoing.len()).then_some(Fault::Fans(from));
             }
@@ -168,26 +209,41 @@ impl Corners {
     }
 }
 
-/// Connected parts: sets of vertices joined by triangles.
-fn components(mesh: &Mesh) -> usize {
-    let mut parent: Vec<u32> = (0..mesh.positions.len() as u32).collect();
-    for &[a, b, c] in &mesh.triangles {
-        for other in [b, c] {
-            let (p, q) = (root(&mut parent, a), root(&mut parent, other));
-            parent[p.max(q) as usize] = p.min(q);
+/// Connected parts: sets of vertices joined by triangles. Sets are trees that hang from their smallest vertices; threads join them at once,
+/// and how many there are does not depend on who came first.
+fn components(mesh: &Mesh, is_used: impl Fn(usize) -> bool + Sync) -> usize {
+    let count = mesh.positions.len();
+    let parents: Vec<AtomicU32> = (0..count as u32).into_par_iter().map(AtomicU32::new).collect();
+    mesh.triangles.par_iter().with_min_len(1024).for_each(|&[a, b, c]| {
+        join(&parents, a, b);
+        join(&parents, a, c);
+    });
+    (0..count).into_par_iter().filter(|&v| is_used(v) && parents[v].load(Ordering::Relaxed) as usize == v).count()
+}
+
+/// Makes one set of those of two vertices.
+fn join(parents: &[AtomicU32], a: u32, b: u32) {
+    let (mut p, mut q) = (root(parents, a), root(parents, b));
+    while p != q {
+        let (low, high) = (p.min(q), p.max(q));
+        // Only a root gets a parent; if it is none any more, the way up goes on.
+        if parents[high as usize].compare_exchange(high, low, Ordering::Relaxed, Ordering::Relaxed).is_ok() {
+            return;
         }
+        (p, q) = (root(parents, low), root(parents, high));
     }
-    let mut is_used = vec![false; parent.len()];
-    mesh.triangles.iter().flatten().for_each(|&v| is_used[v as usize] = true);
-    (0..parent.len()).filter(|&v| is_used[v] && parent[v] as usize == v).count()
 }
 
 /// The root of a vertex; halves the path to it.
-fn root(parent: &mut [u32], mut v: u32) -> u32 {
-    while parent[v as usize] != v {
-        let above = parent[parent[v as usize] as usize];
-        parent[v as usize] = above;
+fn root(parents: &[AtomicU32], mut v: u32) -> u32 {
+    loop {
+        let parent = parents[v as usize].load(Ordering::Relaxed);
+        let above = parents[parent as usize].load(Ordering::Relaxed);
+        if parent == above {
+            return parent;
+        }
+        // A vertex further up is always right as a parent.
+        parents[v as usize].store(above, Ordering::Relaxed);
         v = above;
     }
-    v
 }

@@ -15,6 +15,7 @@ pub mod detail;
 pub mod estimate;
 pub mod figure;
 pub mod grid;
+pub mod guess;
 pub mod line;
 pub mod marching;
 pub mod measure;
