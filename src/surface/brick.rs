@@ -4,18 +4,22 @@
 //! A brick owns its points, the edges that start at them and the cells whose lowest corner they are. It evaluates the next plane of points on
 //! each axis too, so that it can find its own vertices; who joins them asks the owner for every sign.
 
+use std::hash::Hash;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::boxes::{Block, Lattice, Visitor, Walk, walk};
 use super::detail::{self, Detail};
 use super::grid::{BYTES_PER_VERTEX, Grid, LEAF};
 use super::marching::SurfaceError;
-use super::mesh::{pieces, together, unit};
+use super::memory::Left;
+use super::mesh::{pieces, unit};
 use super::roots::{Edges, Roots, Samples, Source};
 use super::sampler::{Counters, Sampler};
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
+use crate::reuse::Digest;
 use crate::vm::{Program, Shape};
 
 /// Points along each side that a brick evaluates.
@@ -151,14 +155,14 @@ impl Bricks {
         let found = AtomicUsize::new(0);
         let gathering = |_: &Block| Gathering::new(grid, &found, most_vertices, normal);
         let Walk { visitors, counters } = walk(grid, shape, gathering, interrupt)?;
-        let vertices = visitors.iter().map(|part| part.along.len()).sum::<usize>();
+        let vertices = visitors.iter().map(|visitor| visitor.part.along.len()).sum::<usize>();
         if vertices > most_vertices {
             return Err(SurfaceError::Memory(limits.memory_bytes));
         }
         let mut all = Self {
             grid: *grid,
             most_vertices,
-            bricks: Vec::with_capacity(visitors.iter().map(|part| part.bricks.len()).sum()),
+            bricks: Vec::with_capacity(visitors.iter().map(|visitor| visitor.part.bricks.len()).sum()),
             positions: Vec::new(),
             normals: Vec::new(),
             counters,
@@ -166,26 +170,28 @@ impl Bricks {
             directory: vec![OUTSIDE; leaves.iter().product()],
         };
         let mut suspects = Vec::new();
-        let (mut along, mut normals) = (Vec::new(), Vec::new());
+        let mut parts = Vec::with_capacity(visitors.len());
         let mut first = 0;
-        for part in visitors {
+        for Gathering { part, .. } in visitors {
             suspects.extend_from_slice(&part.suspects);
             for block in &part.inside {
                 all.mark_inside(block);
             }
             let from = all.bricks.len();
-            for mut brick in part.bricks {
-                brick.first += first;
+            for brick in &part.bricks {
                 let place = all.place(brick.at);
                 all.directory[place] = all.bricks.len() as u32;
-                all.bricks.push(brick);
+                all.bricks.push(Brick { first: brick.first + first, ..brick.clone() });
             }
             first += part.along.len() as u32;
-            along.push((from..all.bricks.len(), part.along));
-            normals.push(part.normals);
+            parts.push((from..all.bricks.len(), part));
         }
-        all.positions = all.place_vertices(along);
-        all.normals = together(normals);
+        all.normals = pieces(
+            parts.iter().collect(),
+            |(_, part)| part.normals.len(),
+            |(_, part), to| to.copy_from_slice(&part.normals),
+        );
+        all.positions = all.place_vertices(parts);
         interrupt.tick()?;
         all.details = detail::confirm(suspects, grid, |index| all.is_inside(index), shape, interrupt);
         Ok(all)
@@ -240,7 +246,7 @@ impl Bricks {
     }
 
     /// The positions of all vertices, from those of ranges of bricks along their edges.
-    fn place_vertices(&self, parts: Vec<(Range<usize>, Vec<f64>)>) -> Vec<[f64; 3]> {
+    fn place_vertices(&self, parts: Vec<(Range<usize>, Arc<Part>)>) -> Vec<[f64; 3]> {
         let counts = self.grid.counts();
         let axes: [Vec<f64>; 3] = std::array::from_fn(|d| (0..counts[d]).map(|i| self.grid.coordinate(d, i)).collect());
         pieces(
@@ -252,7 +258,7 @@ impl Bricks {
                     let from = brick.at.map(|at| LEAF * at);
                     for (axis, words) in brick.crossed.iter().enumerate() {
                         for (z, &word) in words.iter().enumerate() {
-                            for (bit, (position, along)) in bits(word).zip(&mut next) {
+                            for (bit, (position, &along)) in bits(word).zip(&mut next) {
                                 let [x, y] = [axes[0][from[0] + bit % LEAF], axes[1][from[1] + bit / LEAF]];
                                 *position = [x, y, axes[2][from[2] + z]];
                                 position[axis] = along;
@@ -281,13 +287,30 @@ struct Gathering<'a> {
     found: &'a AtomicUsize,
     most: usize,
     normal: bool,
+    /// Shared only once the task is done.
+    part: Arc<Part>,
+    scratch: Scratch,
+}
+
+/// What there is in the block of a task.
+#[derive(Clone, Debug, Default)]
+struct Part {
     inside: Vec<Block>,
     bricks: Vec<Brick>,
     /// The coordinates of the vertices along their edges.
     along: Vec<f64>,
     normals: Vec<[f64; 3]>,
     suspects: Vec<Detail>,
-    scratch: Scratch,
+}
+
+impl Part {
+    fn bytes(&self) -> usize {
+        self.inside.capacity() * size_of::<Block>()
+            + self.bricks.capacity() * size_of::<Brick>()
+            + self.along.capacity() * size_of::<f64>()
+            + self.normals.capacity() * size_of::<[f64; 3]>()
+            + self.suspects.capacity() * size_of::<Detail>()
+    }
 }
 
 #[derive(Default)]
@@ -302,9 +325,11 @@ struct Scratch {
 
 impl<'a> Gathering<'a> {
     fn new(grid: &'a Grid, found: &'a AtomicUsize, most: usize, normal: bool) -> Self {
-        let (inside, bricks, along, normals) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (suspects, scratch) = (Vec::new(), Scratch::default());
-        Self { grid, found, most, normal, inside, bricks, along, normals, suspects, scratch }
+        Self { grid, found, most, normal, part: Arc::default(), scratch: Scratch::default() }
+    }
+
+    fn part(&mut self) -> &mut Part {
+        Arc::make_mut(&mut self.part)
     }
 
     /// Evaluates the block and the next plane on each axis; x fastest. Returns the points along each side.
@@ -327,12 +352,13 @@ impl<'a> Gathering<'a> {
         let dimension = self.grid.dimension();
         let Scratch { columns, values, slopes, axes, edges, roots } = &mut self.scratch;
         edges.load(Samples { axes, values, epsilon: sampler.epsilon() });
-        let first = self.along.len();
-        roots.solve(edges, &mut Source { sampler, program, dimension }, &mut self.along);
+        let part = Arc::make_mut(&mut self.part);
+        let first = part.along.len();
+        roots.solve(edges, &mut Source { sampler, program, dimension }, &mut part.along);
         if !self.normal {
             return;
         }
-        let found = &self.along[first..];
+        let found = &part.along[first..];
         edges.columns(found, columns);
         slopes.iter_mut().for_each(|slopes| slopes.resize(found.len(), 0.0));
         values.resize(found.len(), 0.0);
@@ -341,11 +367,28 @@ impl<'a> Gathering<'a> {
         c.fill(0.0);
         sampler.slopes(program, &[&x[..], y, z][..dimension], values, &mut [&mut a[..], b, c][..dimension]);
         let slopes = a.iter().zip(b.iter()).zip(c.iter());
-        self.normals.extend(slopes.map(|((&a, &b), &c)| unit([-a, -b, -c]).unwrap_or([0.0; 3])));
+        part.normals.extend(slopes.map(|((&a, &b), &c)| unit([-a, -b, -c]).unwrap_or([0.0; 3])));
     }
 }
 
 impl Visitor for Gathering<'_> {
+    fn tell(&self, to: &mut Digest) {
+        self.normal.hash(to);
+    }
+
+    /// Nothing of what was broken off.
+    fn keep(&mut self) -> Option<Left> {
+        let is_whole = self.found.load(Ordering::Relaxed) <= self.most;
+        is_whole.then(|| Left { what: self.part.clone(), bytes: self.part.bytes() })
+    }
+
+    fn recall(&mut self, left: &Left) -> bool {
+        let Ok(part) = left.what.clone().downcast::<Part>() else { return false };
+        self.found.fetch_add(part.along.len(), Ordering::Relaxed);
+        self.part = part;
+        true
+    }
+
     /// Nothing more once all tasks together have found too many vertices.
     fn wants(&mut self, _block: &Block) -> bool {
         self.found.load(Ordering::Relaxed) <= self.most
@@ -353,20 +396,20 @@ impl Visitor for Gathering<'_> {
 
     fn uniform(&mut self, block: &Block, inside: bool) {
         if inside {
-            self.inside.push(*block);
+            self.part().inside.push(*block);
         }
     }
 
     fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) {
         let side = self.evaluate(block, program, sampler);
         let signs = Signs::of(&self.scratch.values, side);
-        if self.suspects.len() < detail::SUSPECTS {
+        if self.part.suspects.len() < detail::SUSPECTS {
             let points = detail::Points { grid: self.grid, from: block.from, side, values: &self.scratch.values };
             let found = match signs.uniform {
                 Some(inside) => points.hidden(inside, program, sampler).or_else(|| points.sheet(program, sampler)),
                 None => points.sheet(program, sampler),
             };
-            self.suspects.extend(found);
+            self.part().suspects.extend(found);
         }
         if let Some(inside) = signs.uniform {
             self.uniform(block, inside);
@@ -375,8 +418,8 @@ impl Visitor for Gathering<'_> {
         let at = block.from.map(|i| i / LEAF);
         let crossed: [[u64; LEAF]; 3] = std::array::from_fn(|axis| signs.crossed(axis, side));
         let (before, count) = Brick::count(&crossed);
-        let first = self.along.len() as u32;
-        self.bricks.push(Brick { at, inside: signs.owned(), crossed, before, first });
+        let first = self.part.along.len() as u32;
+        self.part().bricks.push(Brick { at, inside: signs.owned(), crossed, before, first });
         self.found.fetch_add(usize::from(count), Ordering::Relaxed);
         let edges = &mut self.scratch.edges;
         edges.clear();

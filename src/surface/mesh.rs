@@ -58,11 +58,6 @@ pub(super) fn pieces<P: Send, T: Copy + Default + Send>(
     all
 }
 
-/// All parts behind each other.
-pub(super) fn together<T: Copy + Default + Send>(parts: Vec<Vec<[T; 3]>>) -> Vec<[T; 3]> {
-    pieces(parts, Vec::len, |part, place| place.copy_from_slice(&part))
-}
-
 /// `a - b`.
 #[must_use]
 pub fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
