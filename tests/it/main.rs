@@ -28,6 +28,7 @@ mod plots;
 mod propagation;
 mod prospero;
 mod questions;
+mod rays;
 mod readback;
 mod reference;
 mod regions;
