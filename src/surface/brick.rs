@@ -251,9 +251,9 @@ impl Bricks {
         let axes: [Vec<f64>; 3] = std::array::from_fn(|d| (0..counts[d]).map(|i| self.grid.coordinate(d, i)).collect());
         pieces(
             parts,
-            |(_, along)| along.len(),
-            |(range, along), positions| {
-                let mut next = positions.iter_mut().zip(along);
+            |(_, part)| part.along.len(),
+            |(range, part), positions| {
+                let mut next = positions.iter_mut().zip(&part.along);
                 for brick in &self.bricks[range] {
                     let from = brick.at.map(|at| LEAF * at);
                     for (axis, words) in brick.crossed.iter().enumerate() {

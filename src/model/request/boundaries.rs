@@ -11,7 +11,7 @@ use crate::picture::palette::Palette;
 use crate::surface::check::{Topology, check};
 use crate::surface::contour::outlines;
 use crate::surface::grid::Grid;
-use crate::surface::marching::{Extraction, Report, SurfaceError, extract};
+use crate::surface::marching::{Extraction, Report, SurfaceError, extract, extract_bare};
 use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
 use crate::vm::{Demand, Shape};
@@ -210,6 +210,9 @@ impl<'a> Making<'a> {
     /// The checked boundary; none if it is empty.
     fn mesh(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Option<Mesh>, String, Report), Diagnostic> {
         let shape = self.subject.at(shape, moment);
+        // These formats hold no normals.
+        let is_bare = matches!(self.output.format, Format::Stl | Format::ThreeMf);
+        let extract = if is_bare { extract_bare } else { extract };
         let extraction = extract(&shape, grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
         if extraction.mesh.is_empty() {
             return Ok((None, String::new(), extraction.report));
