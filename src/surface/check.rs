@@ -4,7 +4,6 @@
 //! vertices become one by that rounding; each directed edge is used once and its reverse once; the triangles about a vertex are one fan.
 //! Not checked: whether triangles cut through each other.
 
-use std::borrow::Cow;
 use std::fmt;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -12,7 +11,7 @@ use rayon::prelude::*;
 
 use super::mesh::Mesh;
 
-/// Triangles about a vertex that are few.
+/// Triangles about a vertex that are few: it is quicker to look through them than to sort them.
 const FEW: usize = 32;
 
 /// What is wrong with a mesh, and where.
@@ -157,43 +156,74 @@ struct Corners {
 }
 
 impl Corners {
+    /// Each thread looks at all triangles and gathers those about its own range of vertices.
     fn of(mesh: &Mesh) -> Self {
-        let mut start = vec![0; mesh.positions.len() + 1];
-        for &v in mesh.triangles.iter().flatten() {
-            start[v as usize + 1] += 1;
-        }
+        let (count, corners) = (mesh.positions.len(), mesh.triangles.len() * 3);
+        let range = count.div_ceil(rayon::current_num_threads()).max(1);
+        let mut start = vec![0; count + 1];
+        start[1..].par_chunks_mut(range).enumerate().for_each(|(n, counts)| {
+            for &v in mesh.triangles.iter().flatten() {
+                if let Some(count) = counts.get_mut((v as usize).wrapping_sub(n * range)) {
+                    *count += 1;
+                }
+            }
+        });
         for i in 1..start.len() {
             start[i] += start[i - 1];
         }
-        let mut free = start.clone();
-        let mut sides = vec![[0; 2]; mesh.triangles.len() * 3];
-        for &[a, b, c] in &mesh.triangles {
-            for [v, next, last] in [[a, b, c], [b, c, a], [c, a, b]] {
-                sides[free[v as usize]] = [next, last];
-                free[v as usize] += 1;
+        let mut sides = vec![[0; 2]; corners];
+        let mut rest = &mut sides[..];
+        let parts: Vec<&mut [[u32; 2]]> = (0..count)
+            .step_by(range)
+            .map(|from| {
+                let own = start[count.min(from + range)] - start[from];
+                rest.split_off_mut(..own).unwrap_or_default()
+            })
+            .collect();
+        parts.into_par_iter().enumerate().for_each(|(n, sides)| {
+            let from = n * range;
+            let base = start[from];
+            let mut free = start[from..count.min(from + range)].to_vec();
+            for &[a, b, c] in &mesh.triangles {
+                for [v, next, last] in [[a, b, c], [b, c, a], [c, a, b]] {
+                    if let Some(free) = free.get_mut((v as usize).wrapping_sub(from)) {
+                        sides[*free - base] = [next, last];
+                        *free += 1;
+                    }
+                }
+            }
+        });
+        Self { start, sides }
+    }
+
+    /// Whether a way from triangle to triangle about a vertex passes all of a few and ends where it began. Then all outgoing edges differ,
+    /// or the way would never come to the second of two equal ones, and each has its reverse.
+    fn is_fan(about: &[[u32; 2]]) -> bool {
+        let mut at = 0;
+        for turn in 1..=about.len() {
+            let Some(next) = about.iter().position(|side| side[0] == about[at][1]) else { return false };
+            at = next;
+            if at == 0 {
+                return turn == about.len();
             }
         }
-        Self { start, sides }
+        about.is_empty()
     }
 
     /// What is wrong about vertex v. Its outgoing edges must differ, its incoming ones be their reverses, and going round from triangle
     /// to triangle must pass all of them.
     fn fault(&self, mesh: &Mesh, v: usize) -> Option<Fault> {
         let about = &self.sides[self.start[v]..self.start[v + 1]];
-        let (from, place) = (mesh.positions[v], |v: u32| mesh.positions[v as usize]);
-        // A few are compared with each other; many are sorted.
-        let mut outgoing = Cow::Borrowed(about);
-        let is_sorted = about.len() > FEW;
-        if is_sorted {
-            outgoing.to_mut().sort_unstable();
+        if about.len() <= FEW && Self::is_fan(about) {
+            return None;
         }
-        let find = |other: u32| match is_sorted {
-            true => outgoing.partition_point(|side| side[0] < other),
-            false => outgoing.iter().position(|side| side[0] == other).unwrap_or(outgoing.len()),
-        };
+        let (from, place) = (mesh.positions[v], |v: u32| mesh.positions[v as usize]);
+        let mut outgoing = about.to_vec();
+        outgoing.sort_unstable();
+        let find = |other: u32| outgoing.partition_point(|side| side[0] < other);
         let is_there = |other: u32| outgoing.get(find(other)).is_some_and(|side| side[0] == other);
-        if let Some((_, side)) = outgoing.iter().enumerate().find(|(i, side)| find(side[0]) != *i) {
-            return Some(Fault::Repeated(from, place(side[0])));
+        if let Some(pair) = outgoing.windows(2).find(|pair| pair[0][0] == pair[1][0]) {
+            return Some(Fault::Repeated(from, place(pair[0][0])));
         }
         if let Some(side) = about.iter().find(|side| !is_there(side[1])) {
             return Some(Fault::Open(place(side[1]), from));
