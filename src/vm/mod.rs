@@ -7,6 +7,7 @@ pub mod compile;
 pub mod gradient;
 pub mod interval;
 mod kernels;
+mod lattice;
 pub mod program;
 pub mod reference;
 pub mod region;
