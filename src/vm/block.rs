@@ -5,6 +5,7 @@ use super::kernels::{Code, Kind, Store, doubles, singles};
 use super::lattice::Walked;
 use super::program::Program;
 use super::region::{Counts, Pointwise, RegionProgram, RegionStore};
+use crate::interrupt::Interrupt;
 use crate::number::float::Float;
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
@@ -196,6 +197,12 @@ impl<T: Scalar> Points<T> {
     #[must_use]
     pub fn new() -> Self {
         Self { store: Store::new(), walked: None }
+    }
+
+    /// The same, but once the interrupt is set loops and searches end at once, with values that mean nothing.
+    #[must_use]
+    pub fn heeding(interrupt: &Interrupt) -> Self {
+        Self { store: Store::heeding(interrupt), walked: None }
     }
 
     /// What loops and searches have cost since the last call.
