@@ -1,7 +1,7 @@
 //! Boundaries of functions: the box hierarchy, marching cubes, checks, measures. Knows no language and no files.
 //!
 //! The way of a mesh: [`grid`] says where the sample points lie, [`boxes`] finds the undecided leaves among them, [`brick`] evaluates a leaf
-//! and finds a vertex on each crossed edge ([`roots`]), [`marching`] joins the vertices to triangles ([`table`]), [`cap`] closes the object
+//! and finds a vertex on each crossed edge ([`guess`], [`roots`]), [`marching`] joins the vertices to triangles ([`table`]), [`cap`] closes the object
 //! at the faces of the modelling space. [`check()`] proves the mesh closed, [`measure()`] integrates over it, [`contour`] does the same for
 //! 2-D shapes. [`space`] finds the modelling space when nobody gave one.
 
