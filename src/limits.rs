@@ -36,6 +36,8 @@ pub struct Limits {
     pub frames: usize,
     /// Pixels along one side of a picture.
     pub picture_side: usize,
+    /// Bytes of earlier results that a session keeps, so that what an input did not change is not computed again.
+    pub reuse_bytes: usize,
     /// Inputs that can be undone.
     pub undo_levels: usize,
 }
@@ -58,6 +60,7 @@ impl Default for Limits {
             search_operations: 300_000_000,
             frames: 10_000,
             picture_side: 16_384,
+            reuse_bytes: 256 << 20,
             undo_levels: 1_000,
         }
     }

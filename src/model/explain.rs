@@ -5,15 +5,13 @@ use std::sync::Arc;
 use rustc_hash::FxHashSet;
 
 use crate::diagnostic::Diagnostic;
-use crate::field::{Coordinate, Coordinates, Node, NodeId, operations};
+use crate::field::{Coordinate, Node, NodeId, operations};
 use crate::number::{Interval, Intervals};
 use crate::source::Span;
-use crate::syntax::tree::{Body, ChainOp, Expr, ExprKind, StatementKind};
 use crate::vm::reference;
 
 use super::definition::{Definition, SystemInForce};
 use super::environment::{Axis, Object, Role};
-use super::lower::{Lower, World};
 use super::session::Session;
 use super::value::Value;
 
@@ -134,7 +132,7 @@ impl Session {
         while let Some(next) = waiting.pop_front().filter(|_| all.len() < LOOKED_THROUGH) {
             if seen.insert(next.id) {
                 waiting.extend(next.bases.iter().filter_map(|(_, base)| base.clone()));
-                waiting.extend(next.reads.iter().filter_map(|(name, _)| self.state.get(name).cloned()));
+                waiting.extend(next.reads.iter().filter_map(|(name, _)| self.state.find_for(&next, name).cloned()));
                 all.push(next);
             }
         }
@@ -166,20 +164,12 @@ impl Session {
     }
 
     /// Which coordinates the sides of each `@` share.
-    fn products(&mut self, behind: &[Arc<Definition>]) -> Vec<String> {
+    fn products(&self, behind: &[Arc<Definition>]) -> Vec<String> {
         let mut lines = Vec::new();
         for definition in behind {
-            let StatementKind::Define { parameters: None, body: Body::Expression(e), .. } = &definition.statement.kind
-            else {
-                continue;
-            };
-            let mut found = Vec::new();
-            sides(e, &mut found);
-            for (left, right) in found {
-                let all = [left.clone(), right.clone()].map(|side| self.coordinates_of(definition, &side));
-                let [Some(a), Some(b)] = all else { continue };
+            let title = definition.title().trim_matches('`').to_owned();
+            for [a, b] in self.state.products(definition.id) {
                 let shared: Vec<String> = a.iter().filter(|c| b.contains(*c)).map(|c| c.to_string()).collect();
-                let title = definition.title().trim_matches('`').to_owned();
                 lines.push(match &shared[..] {
                     [] => format!("  @ in {title}: its sides share no coordinate"),
                     some => format!("  @ in {title}: its sides share {}, so it is their intersection", some.join(", ")),
@@ -190,24 +180,6 @@ impl Session {
         lines.truncate(PRODUCTS);
         lines.extend((more > 0).then(|| format!("  and {more} more products")));
         lines
-    }
-
-    /// The coordinates that the values of some expressions of a definition depend on, if they have values by themselves.
-    fn coordinates_of(&mut self, definition: &Arc<Definition>, side: &[&Expr]) -> Option<Coordinates> {
-        let (excused, later) = Default::default();
-        let world = World {
-            limits: &self.limits,
-            interrupt: &self.interrupt,
-            host: &*self.host,
-            sources: &self.sources,
-            excused: &excused,
-            later: &later,
-        };
-        let mut lower = Lower::new(world, &mut self.state, &mut self.graph, &mut self.files);
-        let values: Option<Vec<Value>> = side.iter().map(|e| lower.part(definition, e)).collect();
-        drop(lower);
-        let all = values?.iter().fold(Coordinates::default(), |all, value| all.union(value.coordinates(&self.graph)));
-        Some(all)
     }
 }
 
@@ -233,28 +205,5 @@ fn levels(levels: &[f64]) -> String {
         [0.0] => String::new(),
         [one] => format!(", at the level {one}"),
         all => format!(", at the levels {all:?}"),
-    }
-}
-
-/// The two sides of each `@` in an expression, outermost first; a chain has its operands so far on the left.
-fn sides<'e>(e: &'e Expr, found: &mut Vec<(Vec<&'e Expr>, Vec<&'e Expr>)>) {
-    match &e.kind {
-        ExprKind::Chain { first, rest } => {
-            let mut left = vec![&**first];
-            for (op, _, operand) in rest {
-                if *op == ChainOp::Product {
-                    found.push((left.clone(), vec![operand]));
-                }
-                left.push(operand);
-            }
-            left.into_iter().for_each(|operand| sides(operand, found));
-        }
-        ExprKind::Paren(inner) | ExprKind::Prefix { operand: inner, .. } => sides(inner, found),
-        ExprKind::At { body, .. } | ExprKind::Where { body, .. } => sides(body, found),
-        ExprKind::If { condition, then, otherwise } => {
-            [Some(condition), Some(then), otherwise.as_ref()].into_iter().flatten().for_each(|e| sides(e, found));
-        }
-        ExprKind::Call { arguments, .. } => arguments.iter().for_each(|e| sides(e, found)),
-        _ => {}
     }
 }

@@ -9,6 +9,7 @@ mod errors;
 mod explain;
 mod formula;
 mod input;
+pub mod library;
 mod lower;
 mod names;
 mod objects;

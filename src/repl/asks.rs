@@ -78,6 +78,9 @@ pub fn time(repl: &mut Repl, _: &str) -> Flow {
     if !counts.is_empty() {
         let _ = writeln!(text, "{} evaluated", counts.join(", "));
     }
+    if !costs.kept.is_nothing() {
+        let _ = writeln!(text, "kept from before: {}", costs.kept);
+    }
     repl.show(text.trim_end())
 }
 

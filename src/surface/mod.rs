@@ -19,6 +19,7 @@ pub mod grid;
 pub mod line;
 pub mod marching;
 pub mod measure;
+pub mod memory;
 pub mod mesh;
 pub mod roots;
 pub mod sampler;

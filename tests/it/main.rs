@@ -35,6 +35,7 @@ mod scenes;
 mod session;
 mod slips;
 mod solids;
+mod stdlib;
 mod tidy;
 mod usage;
 mod volumes;
