@@ -70,7 +70,10 @@ fn main() {
     let (interrupt, mut random) = (Interrupt::default(), Random(1));
     let guide: Vec<[f64; 3]> = (0..vertices).map(|_| random.direction()).collect();
     println!("{} bytes per vertex, {vertices} vertices; times of a vertex", Sculpture::bytes_per_vertex());
-    println!("{:>8} {:>6} {:>12} {:>12} {:>12} {:>9} {:>9}", "N", "p", "anew", "other part", "same part", "ratio", "ratio");
+    println!(
+        "{:>8} {:>6} {:>12} {:>12} {:>12} {:>9} {:>9}",
+        "N", "p", "anew", "other part", "same part", "ratio", "ratio"
+    );
     let per = |time: Duration, n: usize| time.as_secs_f64() * 1e9 / n as f64;
     for p in [2.0, 8.0, 2.5, f64::INFINITY] {
         for n in [10, 100, 1_000, 10_000, 100_000] {

@@ -7,7 +7,7 @@
   Run:      yont examples/32_lp_powers.geo -o powers.png
   Expected: above a well for the exponents 1, 2, 4 and 16, below a pillar for -1, -2, -4 and -16; all go through 1 at -1 and 1 }
 
-f_power = MIN(PNORM([x1], 1)**(x2*x3), 4);
+gob_power = MIN(PNORM([x1], 1)**(x2*x3), 4);
 
 x1 : X;  x2 : G = [1, 2, 4, 16];  x3 : W;
 

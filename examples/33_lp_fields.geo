@@ -13,7 +13,7 @@
 ratio = fn_face19([1, 0], 0.5, [-0.25, 0], 0.28);
 moat  = (fn_ring(1, 1))**2;
 
-w = IF x4 < 1.5 THEN MIN(ratio, 4)/2 ELSE IF x4 < 2.5 THEN MIN(ratio, 1) ELSE MIN(moat, 3)/2;
+w = IF x4 < 1.5 THEN MIN(ratio, 4)/2 ELSE IF x4 < 2.5 THEN MIN(ratio, 1) ELSE MIN(moat, 1.2);
 
 gob_field = w - x3;
 

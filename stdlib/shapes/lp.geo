@@ -1,8 +1,5 @@
 // Lp shapes
 
-{ The values F of Hanson's report: inside where F <= 1 (or <= w), to be joined by fn_lp_and and fn_lp_or as often as one likes,
-  and made a solid by pob_lp. }
-
 { The half of L that is not negative, (L + |L|)/2: a half-space L <= 1 as a value that can be joined.
   Example: fn_H(-3)   // 0
   Source: [A96] (2) }
@@ -26,7 +23,7 @@ fn_lp_or((array) H, p) = PNORM(H, -p);
 
 { The intersection of the values in the array H, each with an exponent of its own, sum |H[i]|^p[i], as the power 1/q of that sum, q
   the largest magnitude of an exponent; inside it is the same set. A negative exponent takes the outside of its value.
-  Example: fn_lp_each([0.5, 2], [2, 4])^4   // 16.25
+  Example: fn_lp_each([0.5, 2], [2, 4])**4   // 16.25
   Source: [H90] (2) }
 fn_lp_each((array) H, (array) p) = PNORM(ARRAY(i = 1 TO LEN(H), ABS(H[i])**(p[i]/q)), q) WHERE q = MAXIMUM(i = 1 TO LEN(p), ABS(p[i]));
 
