@@ -24,6 +24,7 @@ pub mod mesh;
 pub mod roots;
 pub mod sampler;
 pub mod space;
+pub mod star;
 pub mod table;
 
 pub use check::{Fault, Topology, check};
