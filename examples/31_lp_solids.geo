@@ -6,8 +6,8 @@
   Shows:    fn_face19 in space; `or` within `and`; one exponent for all blends.
   Run:      yont examples/31_lp_solids.geo -o slabs.png
             yont measure examples/31_lp_solids.geo --at x4=4,x5=1 --resolution 160
-  Expected: the slab from a smooth blob to its edges, and below it the same with a pit; nearly sharp the slab has ten
-            faces' worth of prism: its area 5*0.8^2*TAN(PI/5) times its height 0.8, so volume = 1.86 }
+  Expected: the slab from a smooth blob to its edges, and below it the same with a pit; nearly sharp the slab is
+            a prism of 5*0.8^2*TAN(PI/5) times 0.8, so volume = 1.857 }
 
 exponents = [1, 2, 6, 40];
 p = exponents[x4];

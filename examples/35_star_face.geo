@@ -7,12 +7,12 @@
 
   Shows:    STAR and fn_crossed; a control shape of polygons whose vertices can be moved; a solid inside a choice.
   Run:      yont examples/35_star_face.geo -o face.png
-            the same with -D soft=3 for a rounder face
+            the same with -D soft=4 for a rounder face
             yont measure examples/35_star_face.geo --at x4=2
-  Expected: three heads from sharp to soft, each with the Euler characteristic 2; prints `15 polyhedra, 210 half-spaces` }
+  Expected: three heads from sharp to soft, each with the Euler characteristic 2; prints `15 polyhedra, 208 half-spaces` }
 
-soft = 5;
-joint = 14;
+soft = 6;
+joint = 16;
 
 { The skull, with a third polygon from above, [x1, x2] }
 skull_front = [[-0.72, 0.4], [-0.66, -0.05], [-0.5, -0.45], [0.5, -0.45], [0.66, -0.05], [0.72, 0.4], [0.66, 0.8], [0.46, 1.1], [0.15, 1.25], [-0.15, 1.25], [-0.46, 1.1], [-0.66, 0.8]];
@@ -37,15 +37,15 @@ wing_front = [[-0.03, -0.03], [0.12, -0.22], [0.2, -0.19], [0.185, -0.12], [-0.0
 wing_side  = [[-0.93, -0.15], [-0.88, -0.22], [0.05, -0.03], [0.05, 0.04], [-0.88, -0.08]];
 
 { A brow }
-brow_front = [[-0.05, 0.02], [-0.03, -0.04], [0.57, 0.34], [0.58, 0.4], [0.42, 0.5], [0.2, 0.47], [0.06, 0.4]];
+brow_front = [[-0.05, 0.02], [-0.03, -0.04], [0.45, 0.34], [0.46, 0.4], [0.34, 0.475], [0.2, 0.465], [0.06, 0.4]];
 brow_side  = [[-0.79, 0.37], [0.05, -0.04], [0.05, 0.05], [-0.7, 0.54], [-0.79, 0.45]];
 
 { An eye below its lid }
-eye_front = [[-0.05, 0.02], [-0.03, -0.04], [0.32, 0.12], [0.44, 0.2], [0.39, 0.25], [0.3, 0.275], [0.22, 0.25], [0.17, 0.21]];
+eye_front = [[-0.05, 0.02], [-0.03, -0.04], [0.32, 0.12], [0.41, 0.2], [0.35, 0.25], [0.28, 0.265], [0.21, 0.245]];
 eye_side  = [[-0.765, 0.2], [-0.72, 0.12], [0.05, -0.04], [0.05, 0.05], [-0.72, 0.28]];
 
 { A cheekbone }
-cheek_front = [[-0.05, -0.02], [0.2, -0.22], [0.34, -0.28], [0.55, -0.16], [0.6, -0], [0.5, 0.06], [-0.04, 0.05]];
+cheek_front = [[-0.05, -0.02], [0.2, -0.22], [0.32, -0.26], [0.46, -0.16], [0.5, -0.02], [0.4, 0.04], [-0.04, 0.05]];
 cheek_side  = [[-0.77, -0.14], [-0.68, -0.28], [0.05, -0.05], [0.05, 0.05], [-0.66, 0.06], [-0.76, -0.04]];
 
 { The lips }

@@ -7,7 +7,7 @@
   Run:      yont examples/36_platonic.geo -o platonic.png
             yont measure examples/36_platonic.geo --at x4=1,x5=3
   Expected: tetrahedron, cube, octahedron, dodecahedron and icosahedron, each for p = 2, 4, 8, 16; the octahedron's ball has
-            the radius SQRT(3/4), so volume = 2.7207; Euler characteristic 2 }
+            the radius 0.7*SQRT(3/4), so volume = 0.9332; Euler characteristic 2 }
 
 signs = [1, -1];
 g     = (1 + SQRT(5))/2;
@@ -25,7 +25,7 @@ icosahedron  = JOIN(corners, cyclic(1/g, g)/SQRT(3));
 
 normals = [tetrahedron, cube, corners, dodecahedron, icosahedron];
 solids  = ARRAY(k = 1 TO 5, ARRAY(i = 1 TO 4, STAR([normals[k]/size[k]], 2**i, INFINITY)));
-size    = [0.6, 0.8, 1, 1, 1];
+size    = [0.6, 0.8, 0.7, 1, 1];
 
 gob_platonic = solids[x5, x4];
 

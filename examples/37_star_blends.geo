@@ -12,8 +12,8 @@
 p = [2, 4, 8, 16, INFINITY];
 
 { Beams along each axis, without and with their ends }
-beam(a, b)    = 1 - HYPOT(a, b)/0.45;
-rod(a, b, c, p) = tr_ricci_intersection(beam(a, b), 1 - ABS(c)/1.1, p);
+beam(a, b)    = 1 - HYPOT(a, b)/0.4;
+rod(a, b, c, p) = tr_ricci_intersection(beam(a, b), 1 - ABS(c)/0.95, p);
 
 { Fig. 12 and 13 }
 cylinders = ARRAY(k = 1 TO 5, tr_ricci_intersection(1 - HYPOT(x1, x2)/0.8, 1 - ABS(x3)/0.8, p[k]));

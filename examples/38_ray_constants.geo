@@ -12,7 +12,7 @@
 r = PNORM(x1, x2, x3, 2);
 
 { The angle between the ray and the direction d }
-angle(d) = ACOS(CLAMP(DOT([x1, x2, x3], d)/(r*NORM(d)), -1, 1));
+angle(d) = ATAN2(NORM(CROSS([x1, x2, x3], d)), DOT([x1, x2, x3], d));
 
 turn  = ATAN2(x2, x1);
 polar = angle([0, 0, 1]);
@@ -22,7 +22,7 @@ spikes = [[1,1,1], [1,1,-1], [1,-1,1], [1,-1,-1], [-1,1,1], [-1,1,-1], [-1,-1,1]
 urchin = 1 - r/(0.6 + 0.6*SUM(k = 1 TO LEN(spikes), EXP(-25*angle(spikes[k])**2)));
 shell  = 1 - r/(0.9 + 0.12*SIN(3*turn + 6*polar)*SIN(polar));
 { From 2 above to 12 below }
-both   = 1 - PNORM(x1, x2, x3, 7 - 5*TANH(4*x3/r))/0.9;
+both   = 1 - PNORM(x1, x2, x3, 7 - 5*TANH(4*COS(polar)))/0.9;
 
 gob_direction = [waves, urchin, shell, both][x4];
 

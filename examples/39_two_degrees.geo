@@ -6,10 +6,10 @@
   Shows:    polynomials as solids; PNORM within PNORM; sections as columns of a sheet.
   Run:      yont examples/39_two_degrees.geo -o degrees.png
             yont measure examples/39_two_degrees.geo --at x4=2
-  Expected: the Roman surface with its three lobes' lines gone, a rounded box, a drop that hangs at the origin, and a curved
+  Expected: the Roman surface but for the lines on its axes, which have no thickness, a rounded box, a drop that hangs at the origin, and a curved
             wall; the superquadric has the Euler characteristic 2 }
 
-steiner      = -(x1**2*x2**2 + x2**2*x3**2 + x3**2*x1**2) - 0.9*x1*x2*x3;
+steiner      = -(x1**2*x2**2 + x2**2*x3**2 + x3**2*x1**2) - 1.9*x1*x2*x3;
 superquadric = 1 - PNORM(PNORM(x1, x2, 5)/0.8, x3/0.8, 3);
 monoid       = 1.6*x3**3 - (x1**2 + x2**2 + x3**2)**2;
 cubic        = -(x2 + 1.5*x1**3);

@@ -21,7 +21,7 @@ tr_morph_star(g1, g2, m) = 1 - (1 - g1)**m*(1 - g2)**(1 - m);
   drawn on the plane of the coordinates number i and j of three; its edges go along the third.
   Example: fn_prism([[2, 1], [-2, 1], [0, -4]], 1, 3)[1][3]   // 1
   Source: [A96] 5.1 }
-fn_prism((array) polygon, i, j) = ARRAY(k = 1 TO LEN(polygon), ARRAY(m = 1 TO 3, (m == i)*(b[2] - a[2])/d + (m == j)*(a[1] - b[1])/d
+fn_prism((array) polygon, i, j) = ARRAY(k = 1 TO LEN(polygon), (ARRAY(m = 1 TO 3, (m == i)*(b[2] - a[2])/d + (m == j)*(a[1] - b[1])/d)
   WHERE a = polygon[k], b = polygon[MOD(k, LEN(polygon)) + 1], d = a[1]*b[2] - a[2]*b[1]));
 
 { A convex polyhedron for STAR from two convex polygons about the origin on perpendicular planes: `front` of points [x1, x3],
