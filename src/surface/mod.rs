@@ -21,6 +21,7 @@ pub mod measure;
 pub mod mesh;
 pub mod roots;
 pub mod sampler;
+pub mod sharp;
 pub mod space;
 pub mod table;
 

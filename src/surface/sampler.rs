@@ -113,6 +113,12 @@ impl Sampler {
         Self { interrupt: interrupt.clone(), ..self }
     }
 
+    /// Coordinates of the space.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
     /// How well coordinates are told apart, relative to their size.
     #[must_use]
     pub fn epsilon(&self) -> f64 {

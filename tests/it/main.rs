@@ -33,6 +33,7 @@ mod regions;
 mod repl;
 mod scenes;
 mod session;
+mod sharp;
 mod slips;
 mod solids;
 mod tidy;
