@@ -11,9 +11,11 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::memory::{Left, Memory, Tally};
 use super::sampler::{Counters, Sampler};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
+use crate::reuse::Digest;
 use crate::vm::interval::Boxes;
 use crate::vm::{Precision, Program, Shape};
 
@@ -63,6 +65,12 @@ pub trait Lattice: Sync {
     /// Writes bounds of each coordinate of the space (`Shape::dimension` of them) over `block`. They must hold every point that the
     /// visitor will evaluate for that block, as it is computed in floating point.
     fn bounds(&self, block: &Block, out: &mut [Interval]);
+
+    /// Tells a digest which sample points these are, of all that there could be; `false` if nothing of a walk over them is to be kept for
+    /// the next time.
+    fn tell(&self, _to: &mut Digest) -> bool {
+        false
+    }
 }
 
 /// What is done with the boxes of one task.
@@ -80,6 +88,20 @@ pub trait Visitor: Send {
 
     /// The task is done: a visitor may turn what it gathered into something smaller.
     fn finish(&mut self, _sampler: &mut Sampler) {}
+
+    /// Tells what its result depends on besides the lattice, the block and the program that is right inside it; asked before anything
+    /// else of the task, where [`Lattice::tell`] said yes.
+    fn tell(&self, _to: &mut Digest) {}
+
+    /// What may be kept of its result now that it is done; `None` if it is not for another time.
+    fn keep(&mut self) -> Option<Left> {
+        None
+    }
+
+    /// Takes what another visitor kept of the same task, instead of all other calls. `false` if it cannot.
+    fn recall(&mut self, _left: &Left) -> bool {
+        false
+    }
 }
 
 /// What a walk brings back.
@@ -126,25 +148,50 @@ where
     let mut counters = Counters::default();
     let room = room(lattice, shape, &whole);
     let tasks = gather_tasks(lattice, (shape, room), whole, &mut counters, interrupt)?;
-    let done: Vec<(V, Counters)> = tasks
+    let memory = Memory::of(lattice, (shape, room), interrupt);
+    let done: Vec<(V, Counters, bool)> = tasks
         .into_par_iter()
         .map_init(
             || Walker::new(lattice, (shape, room), interrupt),
             |walker, task| {
                 let (block, mut own) = (task.block, visitor(&task.block));
-                match task.state {
-                    State::Decided(inside) => walker.decide(&mut own, &block, inside),
-                    State::Open(program) => walker.descend(0, &block, &program, &mut own)?,
+                let program = match task.state {
+                    State::Decided(inside) => {
+                        walker.decide(&mut own, &block, inside);
+                        own.finish(&mut walker.sampler);
+                        return Ok((own, walker.take_counters(), false));
+                    }
+                    State::Open(program) => program,
+                };
+                let key = memory.as_ref().map(|memory| memory.key(&own, &block, &program));
+                if let Some(counters) = memory.as_ref().zip(key).and_then(|(memory, key)| memory.recall(&mut own, key))
+                {
+                    interrupt.tick()?;
+                    interrupt.advance(block.points());
+                    return Ok((own, counters, true));
                 }
+                walker.descend(0, &block, &program, &mut own)?;
                 own.finish(&mut walker.sampler);
-                Ok((own, walker.take_counters()))
+                let counters = walker.take_counters();
+                if let Some((memory, key)) = memory.as_ref().zip(key) {
+                    // Nothing that was evaluated after the interrupt was set may outlive it.
+                    interrupt.tick()?;
+                    memory.keep(&mut own, key, &counters);
+                }
+                Ok((own, counters, false))
             },
         )
         .collect::<Result<_, Cancelled>>()?;
     let mut visitors = Vec::with_capacity(done.len());
-    for (own, cost) in done {
+    let mut tally = Tally::default();
+    tally.count(&counters, false);
+    for (own, cost, was_kept) in done {
+        tally.count(&cost, was_kept);
         visitors.push(own);
         counters.add(cost);
+    }
+    if memory.is_some() {
+        interrupt.kept_pieces(tally.0);
     }
     Ok(Walk { visitors, counters })
 }
@@ -175,7 +222,7 @@ fn gather_tasks<L: Lattice>(
         let level: Vec<(Vec<Piece>, u64)> = pieces
             .into_par_iter()
             .map_init(
-                || Level::new(shape, room),
+                || Level::new((shape, room), interrupt),
                 |level, piece| {
                     interrupt.tick()?;
                     match &piece.state {
@@ -249,7 +296,8 @@ impl<'a, L: Lattice> Walker<'a, L> {
         if self.levels.len() <= depth {
             self.levels.resize_with(depth + 1, || None);
         }
-        let mut level = self.levels[depth].take().unwrap_or_else(|| Box::new(Level::new(self.shape, self.room)));
+        let new = || Box::new(Level::new((self.shape, self.room), self.interrupt));
+        let mut level = self.levels[depth].take().unwrap_or_else(new);
         level.examine(self.lattice, program, block, self.lattice.leaf());
         self.boxes += level.children.len() as u64;
         for lane in 0..level.children.len() {
@@ -290,7 +338,7 @@ struct Level {
 }
 
 impl Level {
-    fn new(shape: &Shape, room: f64) -> Self {
+    fn new((shape, room): (&Shape, f64), interrupt: &Interrupt) -> Self {
         let nothing = Interval::new(0.0, 0.0);
         let mut inputs = vec![[nothing; LANES]; shape.dimension];
         inputs.extend(shape.fixed.iter().map(|&value| [fixed(value); LANES]));
@@ -299,7 +347,7 @@ impl Level {
             inputs,
             coordinates: vec![nothing; shape.dimension],
             values: [nothing; LANES],
-            boxes: Boxes::new(),
+            boxes: Boxes::heeding(interrupt),
             room,
         }
     }

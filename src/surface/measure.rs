@@ -13,8 +13,9 @@ use super::marching::{Extraction, Report, SurfaceError};
 use super::mesh::{Mesh, cross, dot, minus};
 use super::sharp::extract_as;
 use super::space::reach;
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
+use crate::reuse::Digest;
 use crate::vm::Shape;
 
 /// Accuracy of the bounding box, as a part of the space.
@@ -63,6 +64,12 @@ impl fmt::Display for MeasureError {
 
 impl std::error::Error for MeasureError {}
 
+impl From<Cancelled> for MeasureError {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::Surface(cancelled.into())
+    }
+}
+
 impl From<SurfaceError> for MeasureError {
     fn from(error: SurfaceError) -> Self {
         Self::Surface(error)
@@ -88,6 +95,21 @@ pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
 /// # Errors
 /// See [`MeasureError`].
 pub fn measure_as(
+    shape: &Shape,
+    grid: &Grid,
+    sharp: bool,
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<Measures, MeasureError> {
+    let tell = |to: &mut Digest| {
+        shape.tell(to);
+        to.shown(&(grid, sharp, limits.memory_bytes, limits.search_operations));
+    };
+    let measured = || measured(shape, grid, sharp, limits, interrupt);
+    interrupt.whole("measures", tell, |_| size_of::<Measures>(), measured)
+}
+
+fn measured(
     shape: &Shape,
     grid: &Grid,
     sharp: bool,

@@ -18,11 +18,13 @@ pub mod grid;
 pub mod line;
 pub mod marching;
 pub mod measure;
+pub mod memory;
 pub mod mesh;
 pub mod roots;
 pub mod sampler;
 pub mod sharp;
 pub mod space;
+pub mod star;
 pub mod table;
 
 pub use check::{Fault, Topology, check};

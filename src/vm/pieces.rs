@@ -8,6 +8,7 @@ use super::compile::extreme_of;
 use super::kernels::{Kind, Store};
 use super::program::{Op, Program, Value};
 use super::slots::SlotScratch;
+use crate::interrupt::Interrupt;
 use crate::number::{Binary, Ternary, Unary};
 
 /// Longest program that is taken apart: every value of it is kept for a block of points.
@@ -113,6 +114,12 @@ impl Pieces {
     #[must_use]
     pub fn new() -> Self {
         Self { store: Store::new(), live: Vec::new(), renumbered: Vec::new(), slots: SlotScratch::default() }
+    }
+
+    /// One whose loops and searches end once the interrupt is set, with pieces that mean nothing.
+    #[must_use]
+    pub fn heeding(interrupt: &Interrupt) -> Self {
+        Self { store: Store::heeding(interrupt), ..Self::new() }
     }
 
     /// Whether a program has branches, and is short enough to be taken apart.

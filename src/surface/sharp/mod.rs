@@ -157,7 +157,7 @@ fn attempt(
     let mesh = &extraction.mesh;
     let scale = Scale::of(grid, reach);
     let sampler = || Sampler::new(shape).heeding(interrupt);
-    let student = || Student { mesh, grid, scale, shape, sampler: sampler(), tracer: Pieces::new() };
+    let student = || Student { mesh, grid, scale, shape, sampler: sampler(), tracer: Pieces::heeding(interrupt) };
     let studied: Vec<(Option<Study>, Counters)> = works
         .par_iter()
         .map_init(student, |student, work| {
