@@ -38,8 +38,11 @@ impl Unary {
     pub fn map<T: Float>(self, a: &[T], out: &mut [T]) {
         let length = a.len().min(out.len());
         let (a, out) = (&a[..length], &mut out[..length]);
-        if let Self::Powi(n) = self {
-            return float::powi_map(a, out, n);
+        match self {
+            // With the usual exponents as constants the loop over their bits falls away.
+            Self::Powi(-2..=4) => {}
+            Self::Powi(n) => return float::powi_map(a, out, n),
+            _ => {}
         }
         let mut rare = false;
         for (&a, out) in a.iter().zip(&mut *out) {

@@ -8,6 +8,7 @@ mod fingerprint;
 pub mod gradient;
 pub mod interval;
 mod kernels;
+mod lattice;
 pub mod pieces;
 pub mod program;
 pub mod reference;
