@@ -53,10 +53,18 @@ fn branch(op: &Op, own: f64, get: impl Fn(Value) -> f64) -> Branch {
             either(pick(extreme, get(a), get(b)), a, b)
         }
         Op::WithRight(extreme @ (Binary::Min | Binary::Max), a, number) => {
-            if pick(extreme, get(a), number) { Branch::Is(a) } else { Branch::Number(number) }
+            if pick(extreme, get(a), number) {
+                Branch::Is(a)
+            } else {
+                Branch::Number(number)
+            }
         }
         Op::WithLeft(extreme @ (Binary::Min | Binary::Max), number, b) => {
-            if pick(extreme, number, get(b)) { Branch::Number(number) } else { Branch::Is(b) }
+            if pick(extreme, number, get(b)) {
+                Branch::Number(number)
+            } else {
+                Branch::Is(b)
+            }
         }
         // Every R-function is 0 where its min or max is, and smooth elsewhere; with the parameter 1 it is the min or max.
         Op::Join(join @ (Ternary::Union | Ternary::Intersection), a, b, alpha)
@@ -122,10 +130,16 @@ impl Pieces {
         Self { store: Store::heeding(interrupt), ..Self::new() }
     }
 
+    /// Whether a program has no branches.
+    #[must_use]
+    pub fn is_smooth(program: &Program) -> bool {
+        !program.operations.iter().any(is_choice)
+    }
+
     /// Whether a program has branches, and is short enough to be taken apart.
     #[must_use]
     pub fn has_branches(program: &Program) -> bool {
-        program.len() <= MOST_OPERATIONS && program.operations.iter().any(is_choice)
+        program.len() <= MOST_OPERATIONS && !Self::is_smooth(program)
     }
 
     /// The number of the piece at each of `out.len()` points: `points` has one slice of that length per input of the program. Pieces that

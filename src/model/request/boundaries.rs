@@ -211,14 +211,8 @@ impl<'a> Making<'a> {
     /// The checked boundary; none if it is empty.
     fn mesh(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Option<Mesh>, String, Report), Diagnostic> {
         let shape = self.subject.at(shape, moment);
-        let extraction = extract_as(
-            &shape,
-            grid,
-            self.options.view.sharp,
-            self.shop.limits,
-            self.shop.interrupt,
-        )
-        .map_err(unmade)?;
+        let extraction =
+            extract_as(&shape, grid, self.options.view.sharp, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
         if extraction.mesh.is_empty() {
             return Ok((None, String::new(), extraction.report));
         }

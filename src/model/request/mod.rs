@@ -59,7 +59,7 @@ pub struct View {
     pub cells: Cells,
     /// The numbers that points are computed with.
     pub precision: Precision,
-    /// Whether creases and corners are in meshes and outlines as they are, not beveled.
+    /// Whether creases and corners are in meshes as they are, not beveled.
     pub sharp: bool,
 }
 

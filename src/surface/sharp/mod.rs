@@ -125,7 +125,7 @@ pub fn sharpen(
 ) -> Result<Sharpened, SurfaceError> {
     let _phase = interrupt.phase("creases");
     let shape = &Shape { precision: Precision::Double, ..shape.clone() };
-    if extraction.own == 0 || !Pieces::has_branches(&shape.program) && shape.program.len() < LEAF {
+    if extraction.own == 0 || Pieces::is_smooth(&shape.program) {
         return Ok(Sharpened::default());
     }
     let mut patches = patches(&extraction.mesh, extraction.own, grid);

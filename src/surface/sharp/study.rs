@@ -15,6 +15,8 @@ use crate::vm::{Pieces, Program, Shape};
 const PARTS: usize = 64;
 /// Steps that halve one of them.
 const HALVINGS: usize = 48;
+/// Operations of a program that is too long to be asked time and again.
+const LONG: usize = 1 << 11;
 /// Creases that may cross one side.
 const DEPTH: usize = 2;
 
@@ -106,13 +108,7 @@ impl Student<'_> {
     }
 
     /// Looks for the crease between two vertices; none where one of them lies on both surfaces.
-    fn segment(
-        &mut self,
-        program: &Program,
-        ends: [u32; 2],
-        cell: [usize; 3],
-        study: &mut Study,
-    ) -> Option<Segment> {
+    fn segment(&mut self, program: &Program, ends: [u32; 2], cell: [usize; 3], study: &mut Study) -> Option<Segment> {
         let places = ends.map(|v| self.mesh.positions[v as usize]);
         let pieces = ends.map(|v| study.piece_of[&v]);
         let mut segment = Segment { ends, points: Vec::new(), smooth: Vec::new(), between: Vec::new(), failed: None };
@@ -203,9 +199,18 @@ impl Student<'_> {
             at
         };
         let reach = 1.5 * self.scale.cell;
-        let mut is_inside = |t: f64| self.whole(point(t)) >= 0.0;
+        let is_long = self.shape.program.len() > LONG;
+        let mut is_inside = |t: f64| {
+            let value = match point(t) {
+                within if square.holds(within) => Local::value(program, within, &mut self.sampler),
+                _ if is_long => f64::NAN,
+                beyond => self.whole(beyond),
+            };
+            value >= 0.0
+        };
         let here = is_inside(0.0);
-        let found = (1..=PARTS).flat_map(|k| [k as f64, -(k as f64)]).find(|k| is_inside(reach * k / PARTS as f64) != here)?;
+        let found =
+            (1..=PARTS).flat_map(|k| [k as f64, -(k as f64)]).find(|k| is_inside(reach * k / PARTS as f64) != here)?;
         let (mut near, mut far) = ((found - found.signum()) * reach / PARTS as f64, found * reach / PARTS as f64);
         for _ in 0..HALVINGS {
             let half = 0.5 * (near + far);

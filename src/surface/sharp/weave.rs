@@ -109,8 +109,7 @@ impl Student<'_> {
         splits: &Splits,
     ) -> Piecework<'a> {
         let sides = polygon.corners.iter().zip(polygon.corners.iter().cycle().skip(1));
-        let sides: Vec<&Segment> =
-            sides.filter_map(|(&a, &b)| segments.get(&[a.min(b), a.max(b)]).copied()).collect();
+        let sides: Vec<&Segment> = sides.filter_map(|(&a, &b)| segments.get(&[a.min(b), a.max(b)]).copied()).collect();
         let mut numbers: Vec<usize> = polygon.corners.iter().map(|v| study.piece_of[v]).collect();
         numbers.extend(sides.iter().flat_map(|side| &side.between));
         numbers.sort_unstable();
@@ -178,9 +177,8 @@ impl Student<'_> {
         own: u64,
         cell: [usize; 3],
     ) -> Option<Corner> {
-        let is_first = |piece: &usize| {
-            own >> piece & 1 == 1 && (surfaces.of[*piece] & own).trailing_zeros() as usize == *piece
-        };
+        let is_first =
+            |piece: &usize| own >> piece & 1 == 1 && (surfaces.of[*piece] & own).trailing_zeros() as usize == *piece;
         let meeting: Vec<&Program> = (0..pieces.len()).filter(is_first).map(|piece| pieces[piece]).collect();
         let sum = |all: &mut dyn Iterator<Item = &Corner>| {
             all.fold(([0.0; 3], 0.0), |(sum, count), corner| {
