@@ -37,7 +37,7 @@ impl Session {
         let scalar = matches!(self.value(name), Some(Ok(Value::Scalar(s))) if !s.coordinates(&self.graph).is_empty());
         if scalar {
             let object = self.object(Some(name))?;
-            self.explain_object(&object, &mut lines);
+            self.explain_object(&object, &mut lines)?;
         }
         let behind = self.behind(&definition);
         lines.extend(self.systems(&behind));
@@ -54,7 +54,7 @@ impl Session {
         format!("{file}:{}", self.sources.line_column(span).0)
     }
 
-    fn explain_object(&self, object: &Object, lines: &mut Vec<String>) {
+    fn explain_object(&mut self, object: &Object, lines: &mut Vec<String>) -> Result<(), Vec<Diagnostic>> {
         lines.extend(object.axes.iter().map(axis));
         let space = object.space().len();
         let shown = match space {
@@ -64,12 +64,9 @@ impl Session {
             _ => "a solid",
         };
         lines.push(format!("  shown as: {shown}{}", levels(&object.levels)));
-        lines.push(match space {
-            2 | 3 => "  route: cubes (the signs at the corners of cells), which asks nothing of the object".into(),
-            _ => "  route: none; a graph has no boundary to be searched".into(),
-        });
-        if let Some(center) = &object.center {
-            lines.push(format!("  centre: {center:?}"));
+        match space {
+            2 | 3 => lines.extend(self.route_of(object)?.lines().iter().map(|line| format!("  {line}"))),
+            _ => lines.push("  route: none; a graph has no boundary to be searched".into()),
         }
         let count = operations(&self.graph, object.node);
         lines.push(format!("  operations: {count}{}", self.data(object.node)));
@@ -78,6 +75,7 @@ impl Session {
         {
             lines.push(line);
         }
+        Ok(())
     }
 
     /// The files that the function stands on.
@@ -125,7 +123,7 @@ impl Session {
     }
 
     /// A definition, those that it continues, and all that these read, nearest first.
-    fn behind(&self, definition: &Arc<Definition>) -> Vec<Arc<Definition>> {
+    pub(super) fn behind(&self, definition: &Arc<Definition>) -> Vec<Arc<Definition>> {
         let mut seen = FxHashSet::default();
         let mut all = Vec::new();
         let mut waiting = std::collections::VecDeque::from([definition.clone()]);

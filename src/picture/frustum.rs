@@ -1,6 +1,7 @@
 //! The space as a camera sees it: cells of the picture x cells of depth, and single rays. Evaluates nothing.
 
 use crate::number::Interval;
+use crate::reuse::Digest;
 use crate::surface::boxes::{Block, Lattice};
 
 use super::raycast::Space;
@@ -55,6 +56,11 @@ impl Lattice for Frustum {
 
     fn task(&self) -> [usize; 3] {
         [4 * self.scene.tile, 4 * self.scene.tile, self.cells]
+    }
+
+    fn tell(&self, to: &mut Digest) -> bool {
+        to.shown(&self.scene);
+        true
     }
 
     fn bounds(&self, block: &Block, out: &mut [Interval]) {

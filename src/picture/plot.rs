@@ -1,6 +1,8 @@
 //! A 2-D object as a filled picture: pixel (i, j) from the top left is the point `lo[0] + (i+1/2) (hi[0]-lo[0]) / W`,
 //! `hi[1] - (j+1/2) (hi[1]-lo[1]) / H`. Draws no axes and writes no files.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::image::Image;
@@ -8,7 +10,9 @@ use super::paint::Paint;
 use super::palette::{Palette, bright, encode, linear};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
+use crate::reuse::Digest;
 use crate::surface::boxes::{Block, Lattice, Visitor, walk};
+use crate::surface::memory::Left;
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::{Program, Shape};
 
@@ -61,6 +65,12 @@ pub struct Plot {
     pub met: bool,
 }
 
+impl Plot {
+    fn bytes(&self) -> usize {
+        self.image.rgba.len()
+    }
+}
+
 /// The picture of a shape with two axes.
 ///
 /// # Errors
@@ -76,6 +86,20 @@ pub fn plot(
     interrupt: &Interrupt,
 ) -> Result<Plot, Cancelled> {
     assert_eq!(shape.dimension, 2, "a plot shows a space of two axes");
+    let tell = |to: &mut Digest| {
+        to.shown(&("plot", window, size, fill));
+        shape.tell(to);
+    };
+    interrupt.whole("pictures", tell, Plot::bytes, || plotted(shape, window, size, fill, interrupt))
+}
+
+fn plotted(
+    shape: &Shape,
+    window: Window,
+    size: [usize; 2],
+    fill: Fill,
+    interrupt: &Interrupt,
+) -> Result<Plot, Cancelled> {
     if size.contains(&0) {
         return Ok(Plot { image: Image::new(size[0], size[1], [0; 3]), counters: Counters::default(), met: false });
     }
@@ -117,6 +141,23 @@ pub fn figures(
     interrupt: &Interrupt,
 ) -> Result<Plot, Cancelled> {
     assert!(figures.iter().all(|(shape, _)| shape.dimension == 2), "a plot shows a space of two axes");
+    let tell = |to: &mut Digest| {
+        to.shown(&("figures", window, size, ground));
+        figures.iter().for_each(|(shape, paint)| {
+            shape.tell(to);
+            paint.tell(to);
+        });
+    };
+    interrupt.whole("pictures", tell, Plot::bytes, || coloured(figures, window, size, ground, interrupt))
+}
+
+fn coloured(
+    figures: &[(Shape, Paint)],
+    window: Window,
+    size: [usize; 2],
+    ground: [u8; 4],
+    interrupt: &Interrupt,
+) -> Result<Plot, Cancelled> {
     let (mut counters, mut all) = (Counters::default(), Vec::new());
     let fine = fineness(size);
     let pixels = Pixels { window, size: size.map(|n| n * fine) };
@@ -236,6 +277,11 @@ impl Lattice for Pixels {
         [BAND, BAND, 1]
     }
 
+    fn tell(&self, to: &mut Digest) -> bool {
+        to.shown(&("pixels", self.window, self.size));
+        true
+    }
+
     fn bounds(&self, block: &Block, out: &mut [Interval]) {
         // Each step of the formulas is monotone in the index, rounding included, so the ends bound what lies between.
         out[0] = Interval::new(self.column(block.from[0]), self.column(block.to[0] - 1));
@@ -258,7 +304,7 @@ struct Signs<'a> {
     block: Block,
     /// What all samples are, as long as `inside` is empty.
     all: bool,
-    inside: Vec<bool>,
+    inside: Arc<Vec<bool>>,
     columns: [Vec<f64>; 2],
     values: Vec<f64>,
 }
@@ -298,10 +344,10 @@ impl Signs<'_> {
 
     fn part(&mut self, block: &Block, j: usize) -> &mut [bool] {
         if self.inside.is_empty() {
-            self.inside.resize(self.block.points() as usize, self.all);
+            self.inside = Arc::new(vec![self.all; self.block.points() as usize]);
         }
         let start = (j - self.block.from[1]) * self.width() + (block.from[0] - self.block.from[0]);
-        &mut self.inside[start..start + (block.to[0] - block.from[0])]
+        &mut Arc::make_mut(&mut self.inside)[start..start + (block.to[0] - block.from[0])]
     }
 }
 
@@ -331,6 +377,17 @@ impl Visitor for Signs<'_> {
         }
         self.values = values;
         self.columns = [xs, ys];
+    }
+
+    fn keep(&mut self) -> Option<Left> {
+        let bytes = self.inside.capacity();
+        Some(Left { what: Arc::new((self.all, self.inside.clone())), bytes })
+    }
+
+    fn recall(&mut self, left: &Left) -> bool {
+        let Some((all, inside)) = left.what.downcast_ref::<(bool, Arc<Vec<bool>>)>() else { return false };
+        (self.all, self.inside) = (*all, inside.clone());
+        true
     }
 }
 
@@ -390,7 +447,7 @@ fn tasks<'a>(
         places,
         block: *block,
         all: false,
-        inside: Vec::new(),
+        inside: Arc::default(),
         columns: [Vec::new(), Vec::new()],
         values: Vec::new(),
     };
@@ -462,7 +519,7 @@ fn values(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<
         .par_chunks_mut(pixels.size[0].max(1))
         .enumerate()
         .map_init(
-            || (Sampler::new(shape), vec![0.0; columns.len()]),
+            || (Sampler::new(shape).heeding(interrupt), vec![0.0; columns.len()]),
             |(sampler, rows), (j, out)| {
                 interrupt.tick()?;
                 rows.fill(pixels.row(j));
@@ -472,6 +529,7 @@ fn values(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<
             },
         )
         .collect::<Result<_, Cancelled>>()?;
+    interrupt.tick()?;
     let mut counters = Counters::default();
     rows.into_iter().for_each(|row| counters.add(row));
     Ok((all, counters))

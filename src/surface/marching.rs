@@ -144,7 +144,7 @@ fn extract_once(
     mesh.positions.extend_from_slice(&caps.positions);
     mesh.normals.extend_from_slice(&caps.normals);
     mesh.triangles = triangles;
-    mend_normals(&mut mesh, uncapped);
+    mend(&mut mesh, uncapped);
     Ok(Extraction { mesh, own, report })
 }
 
@@ -257,8 +257,14 @@ fn goes_on(shape: &Shape, caps: &Caps, points: &[u32], counters: &mut Counters, 
     found
 }
 
+/// Gives vertices without a normal that of the triangles about them.
+pub(super) fn mend_normals(mesh: &mut Mesh) {
+    let count = mesh.positions.len();
+    mend(mesh, count);
+}
+
 /// Where the gradient gave no normal, the sum of the normals of the triangles about the vertex does, weighted by area.
-fn mend_normals(mesh: &mut Mesh, count: usize) {
+fn mend(mesh: &mut Mesh, count: usize) {
     let missing: Vec<bool> = mesh.normals.iter().map(|n| *n == [0.0; 3]).collect();
     if !missing[..count].contains(&true) {
         return;

@@ -12,6 +12,7 @@ pub mod check;
 pub mod contour;
 pub mod curvature;
 pub mod detail;
+pub mod edit;
 pub mod estimate;
 pub mod figure;
 pub mod grid;
@@ -23,6 +24,7 @@ pub mod mesh;
 pub mod roots;
 pub mod sampler;
 pub mod space;
+pub mod star;
 pub mod table;
 
 pub use check::{Fault, Topology, check};

@@ -8,6 +8,7 @@ mod fingerprint;
 pub mod gradient;
 pub mod interval;
 mod kernels;
+mod lattice;
 pub mod program;
 pub mod reference;
 pub mod region;

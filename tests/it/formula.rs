@@ -160,7 +160,7 @@ fn what_is_told_of_names() {
                 "x1 : X by default, from -3 to 3",
                 "x2 : Y, from",
                 "a solid",
-                "route: cubes",
+                "route cubes",
                 "gob_bead: r_alpha = 0",
                 "gob_ball: r_alpha = 0.5 (beads.geo:4)",
                 "reads: gob_ball, gob_hole",

@@ -224,8 +224,8 @@ fn every_entry_is_compared_with_something() {
     assert_eq!(missing.collect::<Vec<_>>(), [""; 0]);
 }
 
-/// What has a test of its own below.
-const BY_ITSELF: &str = "tr_offset_radius tr_round_edges";
+/// What has a test of its own: below, and where Lp norms and star solids are tested.
+const BY_ITSELF: &str = "tr_offset_radius tr_round_edges pob_lp tr_ricci_union tr_ricci_intersection tr_morph_star";
 
 #[test]
 fn offsets_of_constant_radius_are_the_exact_ones() {

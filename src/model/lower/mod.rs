@@ -12,6 +12,7 @@ mod extremum;
 mod fold;
 mod operators;
 mod repeat;
+mod star;
 mod statement;
 
 use std::sync::Arc;
@@ -24,7 +25,7 @@ use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::source::{SourceMap, Span};
-use crate::syntax::tree::{Body, Name, Statement, StatementKind};
+use crate::syntax::tree::{Body, Expr, Name, Statement, StatementKind};
 
 use super::definition::{Definition, DefinitionId, SystemInForce};
 use super::errors;
@@ -240,6 +241,19 @@ impl<'a> Lower<'a> {
             Err(Fault::Follows(told)) => Ok(Kept::Failed(told)),
             Err(Fault::Cancelled) => Err(Fault::Cancelled),
         }
+    }
+
+    /// The value of an expression of a definition by itself, as the definition sees names; none if it fails.
+    pub fn part(&mut self, definition: &Arc<Definition>, e: &Expr) -> Option<Value> {
+        self.active = Active::InForce(definition.system.clone());
+        self.current = Some(definition.clone());
+        for (name, base) in &definition.bases {
+            let slot = base.as_ref().map_or(Slot::Unset, |base| self.base(base, name));
+            self.locals.push(Local { name: name.clone(), slot });
+        }
+        let value = self.expr(e).ok();
+        self.locals.clear();
+        value
     }
 
     fn formula(&mut self, definition: &Arc<Definition>) -> Lowered<Kept> {
