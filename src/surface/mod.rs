@@ -12,6 +12,7 @@ pub mod check;
 pub mod contour;
 pub mod curvature;
 pub mod detail;
+pub mod edit;
 pub mod estimate;
 pub mod figure;
 pub mod grid;

@@ -4,9 +4,9 @@
   ones and circles, convex and hollow ones, and corners in which three surfaces meet. Cubes would bevel each of them.
 
   Shows:    --sharp and `sharp = 1;`: a mesh with the creases that &, | and \ make.
-  Run:      yont examples/23_sharp.geo -o sharp.stl
+  Run:      yont examples/40_sharp.geo -o sharp.stl
             the same with --sharp=off for the bevels
-            yont measure examples/23_sharp.geo --resolution 64
+            yont measure examples/40_sharp.geo --resolution 64
   Expected: Euler characteristic -2: the hole through the boss and the slot }
 
 r_alpha = 1;
