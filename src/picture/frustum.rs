@@ -57,6 +57,11 @@ impl Lattice for Frustum {
         [4 * self.scene.tile, 4 * self.scene.tile, self.cells]
     }
 
+    /// A ray seen whole is as good as the whole space, unless it runs along an axis.
+    fn part(&self) -> [usize; 3] {
+        [4 * self.scene.tile, 4 * self.scene.tile, 4 * LEAF_DEPTH]
+    }
+
     fn bounds(&self, block: &Block, out: &mut [Interval]) {
         let Space { lo, hi } = self.scene.space;
         let (mut least, mut most) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);

@@ -85,7 +85,7 @@ pub fn plot(
             let places = pixels.places();
             let tasks = tasks(shape, &pixels, &places, interrupt)?;
             let mut image = Image { width: size[0], height: size[1], rgba: vec![0; 4 * size[0] * size[1]] };
-            tasks.lay(&mut image.rgba, 4, |row, out| row.paint(out));
+            tasks.lay(&mut image.rgba, 4, |row, out| row.put([255; 4], [0, 0, 0, 255], out));
             Ok(Plot { image, met: tasks.met(), counters: tasks.counters })
         }
         Fill::Solid(palette) => {
@@ -229,11 +229,12 @@ impl Lattice for Pixels {
     }
 
     fn leaf(&self) -> [usize; 3] {
-        [16, 16, 1]
+        [LEAF, LEAF, 1]
     }
 
     fn task(&self) -> [usize; 3] {
-        [BAND, BAND, 1]
+        let side = if self.size.iter().any(|&n| n > LARGE) { 4 * BAND } else { BAND };
+        [side, side, 1]
     }
 
     fn bounds(&self, block: &Block, out: &mut [Interval]) {
@@ -243,8 +244,14 @@ impl Lattice for Pixels {
     }
 }
 
-/// Samples along each side of a task.
+/// Samples along each side of a smallest box: the bits of a [`Word`].
+const LEAF: usize = 16;
+
+/// Samples along each side of a task; in large pictures 4 times as many.
 const BAND: usize = 64;
+
+/// Pictures longer than that are large.
+const LARGE: usize = 2048;
 
 /// The coordinates of the sample points, by column and by row.
 struct Places {
@@ -252,13 +259,16 @@ struct Places {
     rows: Vec<f64>,
 }
 
+/// The signs of neighbouring samples of a row, the first one lowest: 1 where it is inside.
+type Word = u16;
+
 /// The signs of one task's samples, row by row.
 struct Signs<'a> {
     places: &'a Places,
     block: Block,
     /// What all samples are, as long as `inside` is empty.
     all: bool,
-    inside: Vec<bool>,
+    inside: Vec<Word>,
     columns: [Vec<f64>; 2],
     values: Vec<f64>,
 }
@@ -266,18 +276,26 @@ struct Signs<'a> {
 /// Signs of neighbouring samples.
 enum Row<'a> {
     Same(bool),
-    Each(&'a [bool]),
+    Each(&'a [Word]),
 }
 
 impl Row<'_> {
-    /// Black inside, white outside, opaque.
-    fn paint(&self, out: &mut [u8]) {
-        let shade = |inside: bool| if inside { [0, 0, 0, 255] } else { [255; 4] };
+    /// Puts what stands for inside and what stands for outside, `N` items each, for each sample.
+    fn put<T: Copy + Default, const N: usize>(&self, outside: [T; N], inside: [T; N], out: &mut [T]) {
+        let same = |out: &mut [T], one: [T; N]| out.as_chunks_mut::<N>().0.fill(one);
         match *self {
-            Self::Same(inside) => out.chunks_exact_mut(4).for_each(|pixel| pixel.copy_from_slice(&shade(inside))),
-            Self::Each(row) => {
-                let pixels = out.chunks_exact_mut(4).zip(row);
-                pixels.for_each(|(pixel, &inside)| pixel.copy_from_slice(&shade(inside)));
+            Self::Same(all) => same(out, if all { inside } else { outside }),
+            Self::Each(words) => {
+                for (word, out) in words.iter().zip(out.chunks_mut(LEAF * N)) {
+                    match *word {
+                        0 => same(out, outside),
+                        Word::MAX => same(out, inside),
+                        word => {
+                            let samples = out.as_chunks_mut::<N>().0.iter_mut().enumerate();
+                            samples.for_each(|(k, one)| *one = if word >> k & 1 == 1 { inside } else { outside });
+                        }
+                    }
+                }
             }
         }
     }
@@ -288,20 +306,28 @@ impl Signs<'_> {
         self.block.to[0] - self.block.from[0]
     }
 
+    /// Words of a row.
+    fn words(&self) -> usize {
+        self.width().div_ceil(LEAF)
+    }
+
     fn row(&self, j: usize) -> Row<'_> {
-        let (width, from) = (self.width(), (j - self.block.from[1]) * self.width());
-        match self.inside.get(from..from + width) {
+        let (words, from) = (self.words(), (j - self.block.from[1]) * self.words());
+        match self.inside.get(from..from + words) {
             Some(row) => Row::Each(row),
             None => Row::Same(self.all),
         }
     }
 
-    fn part(&mut self, block: &Block, j: usize) -> &mut [bool] {
+    /// The words of a box in a row.
+    fn part(&mut self, block: &Block, j: usize) -> &mut [Word] {
+        let words = self.words();
         if self.inside.is_empty() {
-            self.inside.resize(self.block.points() as usize, self.all);
+            let all = if self.all { Word::MAX } else { 0 };
+            self.inside.resize(words * (self.block.to[1] - self.block.from[1]), all);
         }
-        let start = (j - self.block.from[1]) * self.width() + (block.from[0] - self.block.from[0]);
-        &mut self.inside[start..start + (block.to[0] - block.from[0])]
+        let start = (j - self.block.from[1]) * words + (block.from[0] - self.block.from[0]) / LEAF;
+        &mut self.inside[start..start + (block.to[0] - block.from[0]).div_ceil(LEAF)]
     }
 }
 
@@ -310,7 +336,7 @@ impl Visitor for Signs<'_> {
         if *block == self.block {
             self.all = inside;
         } else if inside {
-            (block.from[1]..block.to[1]).for_each(|j| self.part(block, j).fill(true));
+            (block.from[1]..block.to[1]).for_each(|j| self.part(block, j).fill(Word::MAX));
         }
     }
 
@@ -327,7 +353,8 @@ impl Visitor for Signs<'_> {
         values.resize(xs.len(), 0.0);
         sampler.values(program, &[&xs, &ys], &mut values);
         for (j, values) in (block.from[1]..block.to[1]).zip(values.chunks_exact(columns.len())) {
-            self.part(block, j).iter_mut().zip(values).for_each(|(inside, &v)| *inside = v >= 0.0);
+            let bits = values.iter().enumerate().map(|(k, &v)| Word::from(v >= 0.0) << k);
+            self.part(block, j)[0] = bits.fold(0, |word, bit| word | bit);
         }
         self.values = values;
         self.columns = [xs, ys];
@@ -344,7 +371,9 @@ struct Tasks<'a> {
 impl Tasks<'_> {
     /// Whether a sample is inside.
     fn met(&self) -> bool {
-        self.all.iter().any(|task| if task.inside.is_empty() { task.all } else { task.inside.contains(&true) })
+        self.all
+            .iter()
+            .any(|task| if task.inside.is_empty() { task.all } else { task.inside.iter().any(|&word| word != 0) })
     }
 
     /// Lays each row of each task where it belongs in a picture of `per` items a sample.
@@ -368,15 +397,30 @@ impl Tasks<'_> {
     }
 }
 
+/// Which pixels' middles are inside, row by row from the top: what [`Fill::Mono`] paints black.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+///
+/// # Panics
+/// If the shape has another number of axes than two, or a side is 0.
+pub fn inside(
+    shape: &Shape,
+    window: Window,
+    size: [usize; 2],
+    interrupt: &Interrupt,
+) -> Result<(Vec<bool>, Counters), Cancelled> {
+    assert_eq!(shape.dimension, 2, "a plot shows a space of two axes");
+    assert!(!size.contains(&0), "a picture has pixels");
+    signs(shape, &Pixels { window, size }, interrupt)
+}
+
 /// Which samples are inside, row by row.
 fn signs(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<bool>, Counters), Cancelled> {
     let places = pixels.places();
     let tasks = tasks(shape, pixels, &places, interrupt)?;
     let mut all = vec![false; pixels.size[0] * pixels.size[1]];
-    tasks.lay(&mut all, 1, |row, out| match row {
-        Row::Same(inside) => out.fill(inside),
-        Row::Each(row) => out.copy_from_slice(row),
-    });
+    tasks.lay(&mut all, 1, |row, out| row.put([false], [true], out));
     Ok((all, tasks.counters))
 }
 
