@@ -44,6 +44,7 @@ pub mod model;
 pub mod number;
 pub mod picture;
 pub mod repl;
+pub mod reuse;
 pub mod source;
 pub mod surface;
 pub mod syntax;

@@ -32,10 +32,14 @@ pub struct Limits {
     /// Operations at points (one for a box counts as eight) that the search for a modelling space may spend before it takes what it knows
     /// by then.
     pub search_operations: usize,
+    /// Nodes that the analysis of an object along rays looks at, for one centre.
+    pub ray_nodes: usize,
     /// Frames of one animation or numbered series.
     pub frames: usize,
     /// Pixels along one side of a picture.
     pub picture_side: usize,
+    /// Bytes of earlier results that a session keeps, so that what an input did not change is not computed again.
+    pub reuse_bytes: usize,
     /// Inputs that can be undone.
     pub undo_levels: usize,
 }
@@ -56,8 +60,10 @@ impl Default for Limits {
             memory_bytes: 4 << 30,
             data_bytes: 2 << 30,
             search_operations: 300_000_000,
+            ray_nodes: 2_000_000,
             frames: 10_000,
             picture_side: 16_384,
+            reuse_bytes: 256 << 20,
             undo_levels: 1_000,
         }
     }

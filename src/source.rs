@@ -57,9 +57,33 @@ pub struct Source {
 #[derive(Clone, Debug, Default)]
 pub struct SourceMap {
     sources: Vec<Arc<Source>>,
+    shelf: Arc<[Source]>,
+}
+
+/// The number of the first text on the shelf; those that come one by one count from 0.
+const SHELF: u32 = 1 << 31;
+
+impl SourceId {
+    /// The number of the text at this place of the shelf.
+    #[must_use]
+    pub fn on_shelf(place: usize) -> Self {
+        Self(SHELF | clamp(place))
+    }
+
+    /// Whether the text came with the program and is nobody's input.
+    #[must_use]
+    pub fn is_on_shelf(self) -> bool {
+        self.0 & SHELF != 0
+    }
 }
 
 impl SourceMap {
+    /// A map that has these texts before any comes, under numbers of their own: [`SourceId::on_shelf`].
+    #[must_use]
+    pub fn with_shelf(shelf: Arc<[Source]>) -> Self {
+        Self { sources: Vec::new(), shelf }
+    }
+
     /// Adds a text and gives its number.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
         let id = SourceId(clamp(self.sources.len()));
@@ -70,10 +94,13 @@ impl SourceMap {
     /// The text with that number.
     #[must_use]
     pub fn get(&self, id: SourceId) -> Option<&Source> {
+        if id.is_on_shelf() {
+            return self.shelf.get((id.0 & !SHELF) as usize);
+        }
         self.sources.get(id.0 as usize).map(AsRef::as_ref)
     }
 
-    /// The names of all texts, in the order in which they came.
+    /// The names of all texts that came, in their order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.sources.iter().map(|source| &*source.name)
     }

@@ -60,7 +60,7 @@ pub enum Command {
     Check(Check),
     /// Formats programs
     Fmt(Fmt),
-    /// Explains a built-in function, or a name of a program; without a name, lists them
+    /// Explains a name of the library, a built-in function, or a name of a program; without a name, lists them
     Doc(Doc),
     /// Prints the completions for a shell
     Completions {
@@ -163,6 +163,9 @@ pub struct Program {
     /// Define NAME, whatever the program says, repeatable
     #[arg(short = 'D', long = "define", value_name = "NAME=EXPR", value_parser = assignment)]
     pub define: Vec<Assignment>,
+    /// Start without the library of primitives and operations: every name is still to be defined
+    #[arg(long)]
+    pub no_prelude: bool,
 }
 
 /// Which object, and which part of its space.
@@ -520,6 +523,9 @@ pub struct Check {
     /// The programs; `-` is standard input
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
+    /// Start without the library of primitives and operations: every name is still to be defined
+    #[arg(long)]
+    pub no_prelude: bool,
 }
 
 /// Formatting programs.
@@ -536,9 +542,12 @@ pub struct Fmt {
 /// Explaining names.
 #[derive(Args, Clone, Debug)]
 pub struct Doc {
-    /// A built-in function, or a name of the program
+    /// A name of the library, a built-in function, or a name of the program; all of them are listed without one
     pub name: Option<String>,
     /// A program that defines the name
     #[arg(long, value_name = "FILE")]
     pub file: Option<PathBuf>,
+    /// Leave out the library of primitives and operations
+    #[arg(long)]
+    pub no_prelude: bool,
 }

@@ -101,8 +101,13 @@ impl Console {
 
     /// Tells how long `what` took, with `--timings`.
     pub fn timing(&self, what: &str, time: Duration) {
+        self.timed(&format!("{what}: {:.3} s", time.as_secs_f64()));
+    }
+
+    /// Tells something about what the work cost, with `--timings`.
+    pub fn timed(&self, words: &str) {
         if self.timings {
-            self.say(&format!("{what}: {:.3} s", time.as_secs_f64()));
+            self.say(words);
         }
     }
 

@@ -78,6 +78,9 @@ fn timed(cli: Cli, signals: &Signals, prompt: fn(Prompt) -> Status) -> Status {
     let status = dispatch(cli, &console, signals, prompt).unwrap_or_else(|ended| ended);
     let costs = signals.interrupt.costs();
     costs.phases.iter().for_each(|(name, time)| console.timing(name, *time));
+    if !costs.kept.is_nothing() {
+        console.timed(&format!("kept from before: {}", costs.kept));
+    }
     console.timing("all", start.elapsed());
     status
 }

@@ -18,10 +18,11 @@ use super::mistakes;
 use super::status::Status;
 use super::text::near;
 
-/// A session that knows nothing yet.
+/// A session in which the user has defined nothing yet, with the library or without.
 #[must_use]
-pub fn fresh(signals: &Signals) -> Session {
-    Session::new(Arc::new(Disk), Limits::default(), signals.interrupt.clone())
+pub fn fresh(signals: &Signals, no_prelude: bool) -> Session {
+    let start = if no_prelude { Session::bare } else { Session::new };
+    start(Arc::new(Disk), Limits::default(), signals.interrupt.clone())
 }
 
 /// The text of a program; `-` is standard input.
@@ -48,7 +49,7 @@ pub fn name(file: &Path) -> String {
 /// # Errors
 /// The status of the first failure; its messages have been told.
 pub fn open(console: &Console, signals: &Signals, program: &Program) -> Result<(Session, Vec<Event>), Status> {
-    let mut session = fresh(signals);
+    let mut session = fresh(signals, program.no_prelude);
     let mut events = Vec::new();
     for assignment in &program.define {
         let mut outcome = session.set(&assignment.name, &assignment.expression);

@@ -8,6 +8,7 @@ use crate::builtins;
 use crate::diagnostic::near::{Candidate, suggest};
 use crate::host::{Disk, Host};
 use crate::limits::Limits;
+use crate::model::library::{Entry, Library};
 use crate::model::settings;
 use crate::source::SourceMap;
 use crate::syntax::print::format;
@@ -23,7 +24,7 @@ use super::words;
 pub fn check(console: &Console, signals: &Signals, options: &Check) -> Result<Status, Status> {
     let mut status = Status::Done;
     for file in &options.files {
-        let program = Program { file: Some(file.clone()), ..Program::default() };
+        let program = Program { file: Some(file.clone()), no_prelude: options.no_prelude, ..Program::default() };
         status = status.or(match session::open(console, signals, &program) {
             Ok((session, _)) => console.report(session.sources(), &settings::check(&session)),
             Err(failed) => failed,
@@ -68,13 +69,14 @@ fn fmt_one(console: &Console, file: &Path, check: bool) -> Result<Status, Status
 
 /// `yont doc [NAME]`.
 pub fn doc(console: &Console, signals: &Signals, options: &Doc) -> Result<Status, Status> {
+    let library = (!options.no_prelude).then(Library::shared);
     let Some(name) = &options.name else {
-        console.print(&overview())?;
+        console.print(&overview(library))?;
         return Ok(Status::Done);
     };
     let mut names = Vec::new();
     if let Some(file) = &options.file {
-        let program = Program { file: Some(file.clone()), ..Program::default() };
+        let program = Program { file: Some(file.clone()), no_prelude: options.no_prelude, ..Program::default() };
         let (session, _) = session::open(console, signals, &program)?;
         if session.is_defined(name) {
             let doc = session.doc(name).unwrap_or_else(|| "No comment stands right above its definition.".into());
@@ -84,10 +86,20 @@ pub fn doc(console: &Console, signals: &Signals, options: &Doc) -> Result<Status
         }
         names = session.names();
     }
-    match builtins::find(name).map(explain).or_else(|| words::explain(name)) {
+    match known(name, library) {
         Some(told) => console.print(&told).map(|()| Status::Done),
-        None => Ok(console.refuse(&unknown(name, &names, options.file.is_some()))),
+        None => {
+            names.extend(library.into_iter().flat_map(Library::names).map(str::to_owned));
+            Ok(console.refuse(&unknown(name, &names, options.file.is_some())))
+        }
     }
+}
+
+/// What there is to say of a name of the library, a built-in function or a word of the language; nothing if it is none.
+#[must_use]
+pub fn known(name: &str, library: Option<&Library>) -> Option<String> {
+    let entry = library.and_then(|library| library.entry(name)).map(|entry| explain_entry(&entry));
+    entry.or_else(|| builtins::find(name).map(explain)).or_else(|| words::explain(name))
 }
 
 fn unknown(name: &str, names: &[String], with_file: bool) -> String {
@@ -108,10 +120,17 @@ pub fn near<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a 
     suggest(name, names.map(|name| Candidate { name, preferred: false })).first().copied()
 }
 
-/// All built-in functions by subject, one a line.
-fn overview() -> String {
-    let width = builtins::all().map(|builtin| builtin.signature().chars().count()).max().unwrap_or(0);
+/// All names of the library and all built-in functions by subject, one a line.
+fn overview(library: Option<&Library>) -> String {
     let mut lines: Vec<String> = Vec::new();
+    for (subject, names) in library.map(Library::subjects).unwrap_or_default() {
+        let entries: Vec<Entry> = names.iter().filter_map(|name| library?.entry(name)).collect();
+        let width = entries.iter().map(|entry| entry.signature.chars().count()).max().unwrap_or(0);
+        lines.push(format!("{subject}:"));
+        lines.extend(entries.iter().map(|entry| format!("  {:width$}  {}", entry.signature, first(&entry.text))));
+        lines.push(String::new());
+    }
+    let width = builtins::all().map(|builtin| builtin.signature().chars().count()).max().unwrap_or(0);
     let mut subject = None;
     for builtin in builtins::all() {
         if subject != Some(builtin.subject) {
@@ -119,10 +138,22 @@ fn overview() -> String {
             lines.push(format!("{gap}{}:", builtin.subject));
             subject = Some(builtin.subject);
         }
-        let first = builtin.doc.split(['.', ';']).next().unwrap_or(builtin.doc);
-        lines.push(format!("  {:width$}  {first}", builtin.signature()));
+        lines.push(format!("  {:width$}  {}", builtin.signature(), first(builtin.doc)));
     }
     lines.join("\n")
+}
+
+/// The first sentence of a text, or its first half.
+fn first(text: &str) -> &str {
+    let end = [". ", "; "].iter().filter_map(|end| text.find(end)).min();
+    text[..end.unwrap_or(text.len())].trim_end_matches('.')
+}
+
+/// What there is to say of a name of the library.
+fn explain_entry(entry: &Entry) -> String {
+    let (source, value) = &entry.example;
+    let from = [entry.source.as_str(), &entry.file].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>();
+    format!("{}\n    {}\n    {source} is {value}\n    {}", entry.signature, entry.text, from.join(", "))
 }
 
 /// What there is to say of a built-in function.

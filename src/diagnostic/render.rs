@@ -107,6 +107,24 @@ fn snippet<'s>(source: &'s Source, labels: &[&'s Label]) -> Snippet<'s, Annotati
         .annotations(labels.iter().map(annotation))
 }
 
+/// A line of the source with a place in it underlined, for texts that are no messages: two lines, the first with the file's name and
+/// the line's number. A place of several lines is underlined to the end of its first.
+#[must_use]
+pub fn excerpt(span: Span, sources: &SourceMap) -> String {
+    let Some(source) = sources.get(span.source) else { return String::new() };
+    let text = source.text.as_str();
+    let range = bounded(text, span);
+    let start = text[..range.start].rfind('\n').map_or(0, |n| n + 1);
+    let end = text[start..].find('\n').map_or(text.len(), |n| start + n);
+    let line = text[start..end].trim_end();
+    let indent = line.len() - line.trim_start().len();
+    let head = format!("{}:{}: ", source.name, sources.line_column(span).0);
+    let columns = |text: &str| text.chars().count();
+    let before = columns(&head) + columns(text[start..range.start].get(indent..).unwrap_or_default());
+    let marks = columns(&text[range.start..range.end.min(start + line.len()).max(range.start)]).max(1);
+    format!("{head}{}\n{}{}", line.trim_start(), " ".repeat(before), "^".repeat(marks))
+}
+
 /// The bytes of a span, moved inward to what the text really has.
 fn bounded(text: &str, span: Span) -> std::ops::Range<usize> {
     let floor = |at: u32| {

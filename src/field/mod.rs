@@ -5,6 +5,7 @@ pub mod derivative;
 pub mod expand;
 pub mod facts;
 pub mod graph;
+pub mod rays;
 pub mod region;
 
 pub use derivative::derivative;

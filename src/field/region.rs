@@ -9,6 +9,7 @@ use super::derivative::derivative;
 use super::expand::{TooLarge, expand, reachable_all};
 use super::graph::{Coordinate, Coordinates, Graph, Node, NodeId};
 use crate::number::{Binary, Interval, Real, Ternary, Unary};
+use crate::reuse::Digest;
 
 /// Regions within regions, at most so many levels.
 pub const DEPTH: u8 = 4;
@@ -24,7 +25,7 @@ pub struct Region {
     graph: Graph,
     form: Form,
     depth: u8,
-    hash: u64,
+    hash: u128,
 }
 
 /// What a region does with its parameters.
@@ -144,10 +145,16 @@ impl Region {
             _ => None,
         });
         let depth = inner.max().unwrap_or(0).saturating_add(1);
-        let mut hasher = rustc_hash::FxHasher::default();
-        graph.nodes().hash(&mut hasher);
-        form.hash(&mut hasher);
-        SharedRegion(Arc::new(Self { hash: hasher.finish(), graph, form, depth }))
+        let mut digest = Digest::of("region");
+        graph.nodes().hash(&mut digest);
+        form.hash(&mut digest);
+        SharedRegion(Arc::new(Self { hash: digest.key().bits(), graph, form, depth }))
+    }
+
+    /// A hash of all that it is.
+    #[must_use]
+    pub fn fingerprint(&self) -> u128 {
+        self.hash
     }
 
     /// Its graph, without maps.

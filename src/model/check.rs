@@ -164,7 +164,8 @@ pub fn unknown(
     excused: &FxHashSet<Name>,
     later: &FxHashMap<Name, Span>,
 ) -> Vec<Diagnostic> {
-    let missing = said.reads.iter().filter(|(n, _)| state.get(n).is_none());
+    let meant = |n: &Name| excused.contains(n) || later.contains_key(n);
+    let missing = said.reads.iter().filter(|(n, _)| state.get(n).is_none() && (meant(n) || !state.is_library(n)));
     missing
         .map(|(name, span)| match later.get(name) {
             _ if excused.contains(name) => errors::excused(name),
@@ -187,7 +188,7 @@ pub fn unknown_names<'r>(
     let mut read: FxHashSet<&str> = FxHashSet::default();
     for (name, span) in reads {
         read.insert(name);
-        if state.get(name).is_none() && !excused.contains(name) {
+        if state.find(name).is_none() && !excused.contains(name) {
             let places = places.entry(name).or_insert_with(|| {
                 order.push(name);
                 Vec::new()
@@ -215,7 +216,8 @@ pub fn bodies(state: &State, definition: &Definition, said: &Names) -> Vec<Diagn
     }
     let mut told = Vec::new();
     for (name, span, given) in &said.calls {
-        let Some(StatementKind::Define { parameters: Some(p), .. }) = state.get(name).map(|d| &d.statement.kind) else {
+        let Some(StatementKind::Define { parameters: Some(p), .. }) = state.find(name).map(|d| &d.statement.kind)
+        else {
             continue;
         };
         if p.len() != *given {

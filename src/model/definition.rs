@@ -9,6 +9,17 @@ use crate::syntax::tree::{Name, Statement, StatementKind};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct DefinitionId(pub u64);
 
+/// The numbers of the library's definitions begin here: every session knows the same ones.
+const LIBRARY: u64 = 1 << 63;
+
+impl DefinitionId {
+    /// The number of the definition at that place of that file of the library.
+    #[must_use]
+    pub fn of_library(file: usize, place: usize) -> Self {
+        Self(LIBRARY | (file as u64) << 32 | place as u64)
+    }
+}
+
 /// The system of R-functions in force where a statement stands; the formula is live.
 #[derive(Clone, Debug, Default)]
 pub enum SystemInForce {
@@ -61,6 +72,12 @@ impl Definition {
             StatementKind::Define { name, .. } | StatementKind::Element { name, .. } => name.span,
             _ => self.statement.span,
         }
+    }
+
+    /// Whether it is one of the library's, which see the library's names only.
+    #[must_use]
+    pub fn is_library(&self) -> bool {
+        self.id.0 & LIBRARY != 0
     }
 
     /// Whether it has parameters.

@@ -5,15 +5,13 @@ use std::sync::Arc;
 use rustc_hash::FxHashSet;
 
 use crate::diagnostic::Diagnostic;
-use crate::field::{Coordinate, Coordinates, Node, NodeId, operations};
+use crate::field::{Coordinate, Node, NodeId, operations};
 use crate::number::{Interval, Intervals};
 use crate::source::Span;
-use crate::syntax::tree::{Body, ChainOp, Expr, ExprKind, StatementKind};
 use crate::vm::reference;
 
 use super::definition::{Definition, SystemInForce};
 use super::environment::{Axis, Object, Role};
-use super::lower::{Lower, World};
 use super::session::Session;
 use super::value::Value;
 
@@ -39,7 +37,7 @@ impl Session {
         let scalar = matches!(self.value(name), Some(Ok(Value::Scalar(s))) if !s.coordinates(&self.graph).is_empty());
         if scalar {
             let object = self.object(Some(name))?;
-            self.explain_object(&object, &mut lines);
+            self.explain_object(&object, &mut lines)?;
         }
         let behind = self.behind(&definition);
         lines.extend(self.systems(&behind));
@@ -56,7 +54,7 @@ impl Session {
         format!("{file}:{}", self.sources.line_column(span).0)
     }
 
-    fn explain_object(&self, object: &Object, lines: &mut Vec<String>) {
+    fn explain_object(&mut self, object: &Object, lines: &mut Vec<String>) -> Result<(), Vec<Diagnostic>> {
         lines.extend(object.axes.iter().map(axis));
         let space = object.space().len();
         let shown = match space {
@@ -66,12 +64,9 @@ impl Session {
             _ => "a solid",
         };
         lines.push(format!("  shown as: {shown}{}", levels(&object.levels)));
-        lines.push(match space {
-            2 | 3 => "  route: cubes (the signs at the corners of cells), which asks nothing of the object".into(),
-            _ => "  route: none; a graph has no boundary to be searched".into(),
-        });
-        if let Some(center) = &object.center {
-            lines.push(format!("  centre: {center:?}"));
+        match space {
+            2 | 3 => lines.extend(self.route_of(object)?.lines().iter().map(|line| format!("  {line}"))),
+            _ => lines.push("  route: none; a graph has no boundary to be searched".into()),
         }
         let count = operations(&self.graph, object.node);
         lines.push(format!("  operations: {count}{}", self.data(object.node)));
@@ -80,6 +75,7 @@ impl Session {
         {
             lines.push(line);
         }
+        Ok(())
     }
 
     /// The files that the function stands on.
@@ -127,14 +123,14 @@ impl Session {
     }
 
     /// A definition, those that it continues, and all that these read, nearest first.
-    fn behind(&self, definition: &Arc<Definition>) -> Vec<Arc<Definition>> {
+    pub(super) fn behind(&self, definition: &Arc<Definition>) -> Vec<Arc<Definition>> {
         let mut seen = FxHashSet::default();
         let mut all = Vec::new();
         let mut waiting = std::collections::VecDeque::from([definition.clone()]);
         while let Some(next) = waiting.pop_front().filter(|_| all.len() < LOOKED_THROUGH) {
             if seen.insert(next.id) {
                 waiting.extend(next.bases.iter().filter_map(|(_, base)| base.clone()));
-                waiting.extend(next.reads.iter().filter_map(|(name, _)| self.state.get(name).cloned()));
+                waiting.extend(next.reads.iter().filter_map(|(name, _)| self.state.find_for(&next, name).cloned()));
                 all.push(next);
             }
         }
@@ -166,20 +162,12 @@ impl Session {
     }
 
     /// Which coordinates the sides of each `@` share.
-    fn products(&mut self, behind: &[Arc<Definition>]) -> Vec<String> {
+    fn products(&self, behind: &[Arc<Definition>]) -> Vec<String> {
         let mut lines = Vec::new();
         for definition in behind {
-            let StatementKind::Define { parameters: None, body: Body::Expression(e), .. } = &definition.statement.kind
-            else {
-                continue;
-            };
-            let mut found = Vec::new();
-            sides(e, &mut found);
-            for (left, right) in found {
-                let all = [left.clone(), right.clone()].map(|side| self.coordinates_of(definition, &side));
-                let [Some(a), Some(b)] = all else { continue };
+            let title = definition.title().trim_matches('`').to_owned();
+            for [a, b] in self.state.products(definition.id) {
                 let shared: Vec<String> = a.iter().filter(|c| b.contains(*c)).map(|c| c.to_string()).collect();
-                let title = definition.title().trim_matches('`').to_owned();
                 lines.push(match &shared[..] {
                     [] => format!("  @ in {title}: its sides share no coordinate"),
                     some => format!("  @ in {title}: its sides share {}, so it is their intersection", some.join(", ")),
@@ -190,24 +178,6 @@ impl Session {
         lines.truncate(PRODUCTS);
         lines.extend((more > 0).then(|| format!("  and {more} more products")));
         lines
-    }
-
-    /// The coordinates that the values of some expressions of a definition depend on, if they have values by themselves.
-    fn coordinates_of(&mut self, definition: &Arc<Definition>, side: &[&Expr]) -> Option<Coordinates> {
-        let (excused, later) = Default::default();
-        let world = World {
-            limits: &self.limits,
-            interrupt: &self.interrupt,
-            host: &*self.host,
-            sources: &self.sources,
-            excused: &excused,
-            later: &later,
-        };
-        let mut lower = Lower::new(world, &mut self.state, &mut self.graph, &mut self.files);
-        let values: Option<Vec<Value>> = side.iter().map(|e| lower.part(definition, e)).collect();
-        drop(lower);
-        let all = values?.iter().fold(Coordinates::default(), |all, value| all.union(value.coordinates(&self.graph)));
-        Some(all)
     }
 }
 
@@ -233,28 +203,5 @@ fn levels(levels: &[f64]) -> String {
         [0.0] => String::new(),
         [one] => format!(", at the level {one}"),
         all => format!(", at the levels {all:?}"),
-    }
-}
-
-/// The two sides of each `@` in an expression, outermost first; a chain has its operands so far on the left.
-fn sides<'e>(e: &'e Expr, found: &mut Vec<(Vec<&'e Expr>, Vec<&'e Expr>)>) {
-    match &e.kind {
-        ExprKind::Chain { first, rest } => {
-            let mut left = vec![&**first];
-            for (op, _, operand) in rest {
-                if *op == ChainOp::Product {
-                    found.push((left.clone(), vec![operand]));
-                }
-                left.push(operand);
-            }
-            left.into_iter().for_each(|operand| sides(operand, found));
-        }
-        ExprKind::Paren(inner) | ExprKind::Prefix { operand: inner, .. } => sides(inner, found),
-        ExprKind::At { body, .. } | ExprKind::Where { body, .. } => sides(body, found),
-        ExprKind::If { condition, then, otherwise } => {
-            [Some(condition), Some(then), otherwise.as_ref()].into_iter().flatten().for_each(|e| sides(e, found));
-        }
-        ExprKind::Call { arguments, .. } => arguments.iter().for_each(|e| sides(e, found)),
-        _ => {}
     }
 }

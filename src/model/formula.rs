@@ -9,7 +9,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::Diagnostic;
 use crate::field::expand::reachable;
-use crate::field::{Node, NodeId, SharedLeaf};
+use crate::field::{Graph, Node, NodeId, SharedLeaf};
 use crate::number::Ternary;
 use crate::syntax::print::format;
 
@@ -66,8 +66,8 @@ impl Session {
     fn written(&self, name: &str, value: &Value, folder: Option<&Path>) -> Result<Formula, Diagnostic> {
         let mut roots = Vec::new();
         gather(value, &mut roots);
-        let (nodes, uses) = self.counted(&roots);
-        let main = self.main_system(&nodes);
+        let (nodes, uses) = counted(&self.graph, &roots);
+        let main = main_system(&self.graph, &nodes);
         let mut writer = Writer::new(&self.graph, uses, main, self.leaves(folder));
         for node in nodes {
             if self.interrupt.tick().is_err() {
@@ -92,38 +92,6 @@ impl Session {
         Ok(broken(format!("{name} = BEGIN {sets}; {name} = {body}; END;"), rewritten))
     }
 
-    /// The nodes that the roots need, operands before what reads them, and how often each is read.
-    fn counted(&self, roots: &[NodeId]) -> (Vec<NodeId>, FxHashMap<NodeId, usize>) {
-        let mut needed = FxHashSet::default();
-        let mut uses = FxHashMap::default();
-        for &root in roots {
-            *uses.entry(root).or_insert(0) += 1;
-            if !needed.contains(&root) {
-                let reached = reachable(&self.graph, root);
-                needed.extend((0..=root.0).map(NodeId).filter(|id| reached[id.index()]));
-            }
-        }
-        let mut nodes: Vec<NodeId> = needed.into_iter().collect();
-        nodes.sort_unstable();
-        for &node in &nodes {
-            self.graph.node(node).for_each_operand(|e| *uses.entry(e).or_insert(0) += 1);
-        }
-        (nodes, uses)
-    }
-
-    /// The system that most of the set operations have: these are written as operators.
-    fn main_system(&self, nodes: &[NodeId]) -> Option<InForce> {
-        let mut counts: FxHashMap<InForce, usize> = FxHashMap::default();
-        for node in nodes {
-            if let Node::Ternary(op, [_, _, c]) = self.graph.node(*node)
-                && let Some(system) = in_force(*op, self.graph.number(*c))
-            {
-                *counts.entry(system).or_default() += 1;
-            }
-        }
-        counts.into_iter().max_by_key(|&(system, count)| (count, std::cmp::Reverse(system))).map(|(system, _)| system)
-    }
-
     /// The words for each leaf: the first two arguments of INTERPOLATE.
     fn leaves(&self, folder: Option<&Path>) -> impl Fn(&SharedLeaf) -> Option<String> {
         let known: Vec<(u128, PathBuf, String)> = self.files.known().collect();
@@ -135,6 +103,51 @@ impl Session {
             Some(format!("\"{kind}\", \"{}\"", path.display()))
         }
     }
+}
+
+/// The nodes that the roots need, operands before what reads them, and how often each is read.
+fn counted(graph: &Graph, roots: &[NodeId]) -> (Vec<NodeId>, FxHashMap<NodeId, usize>) {
+    let mut needed = FxHashSet::default();
+    let mut uses = FxHashMap::default();
+    for &root in roots {
+        *uses.entry(root).or_insert(0) += 1;
+        if !needed.contains(&root) {
+            let reached = reachable(graph, root);
+            needed.extend((0..=root.0).map(NodeId).filter(|id| reached[id.index()]));
+        }
+    }
+    let mut nodes: Vec<NodeId> = needed.into_iter().collect();
+    nodes.sort_unstable();
+    for &node in &nodes {
+        graph.node(node).for_each_operand(|e| *uses.entry(e).or_insert(0) += 1);
+    }
+    (nodes, uses)
+}
+
+/// The system that most of the set operations have: these are written as operators.
+fn main_system(graph: &Graph, nodes: &[NodeId]) -> Option<InForce> {
+    let mut counts: FxHashMap<InForce, usize> = FxHashMap::default();
+    for node in nodes {
+        if let Node::Ternary(op, [_, _, c]) = graph.node(*node)
+            && let Some(system) = in_force(*op, graph.number(*c))
+        {
+            *counts.entry(system).or_default() += 1;
+        }
+    }
+    counts.into_iter().max_by_key(|&(system, count)| (count, std::cmp::Reverse(system))).map(|(system, _)| system)
+}
+
+/// Expressions of a graph in the words of the language, and the names of the longer parts that they share.
+///
+/// # Errors
+/// Words that say what the language has no expression for.
+pub(super) fn expressions(graph: &Graph, roots: &[NodeId]) -> Result<(Vec<String>, Vec<(String, String)>), String> {
+    let (nodes, uses) = counted(graph, roots);
+    let main = main_system(graph, &nodes);
+    let mut writer = Writer::new(graph, uses, main, |leaf| Some(format!("\"{}\"", leaf.0.name())));
+    nodes.into_iter().try_for_each(|node| writer.add(node))?;
+    let texts = roots.iter().map(|root| writer.take(*root, Level::Product)).collect();
+    Ok((texts, writer.finish().0))
 }
 
 fn in_force(op: Ternary, c: Option<f64>) -> Option<InForce> {

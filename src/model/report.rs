@@ -19,7 +19,8 @@ use super::state::{Entry, State};
 
 /// Both directions of a name's dependencies.
 pub fn deps(state: &State, name: &str) -> Option<Deps> {
-    let reads = state.get(name).map(reads);
+    let mut reads = state.get(name).map(reads);
+    reads.iter_mut().for_each(|all| all.retain(|n| !state.is_library(n)));
     let live = state.live();
     let mut readers = Vec::new();
     let mut seen: FxHashSet<DefinitionId> = FxHashSet::default();

@@ -11,12 +11,14 @@ use crate::field::{Coordinates, Graph, NodeId};
 use crate::host::Host;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
+use crate::reuse::Reuse;
 use crate::source::{SourceId, SourceMap, Span};
 use crate::syntax::Mode;
 use crate::syntax::tree::Name;
 
 use super::definition::{Definition, DefinitionId};
 use super::input::Input;
+use super::library::Library;
 use super::lower::Files;
 use super::request::Searched;
 use super::stack::with_large_stack;
@@ -104,15 +106,26 @@ impl fmt::Debug for Session {
 }
 
 impl Session {
-    /// A session that knows nothing yet.
+    /// A session that knows the library, and nothing of the user's yet.
     #[must_use]
     pub fn new(host: Arc<dyn Host>, limits: Limits, interrupt: Interrupt) -> Self {
+        Self::over(Some(Library::shared()), host, limits, interrupt)
+    }
+
+    /// A session without the library: the "Empty Case" of \[P95\] 3.3, in which everything is still to be defined.
+    #[must_use]
+    pub fn bare(host: Arc<dyn Host>, limits: Limits, interrupt: Interrupt) -> Self {
+        Self::over(None, host, limits, interrupt)
+    }
+
+    fn over(library: Option<&'static Library>, host: Arc<dyn Host>, limits: Limits, interrupt: Interrupt) -> Self {
+        let reuse_bytes = limits.reuse_bytes;
         Self {
             host,
             limits,
-            interrupt,
-            sources: SourceMap::default(),
-            state: State::default(),
+            interrupt: interrupt.keeping(Reuse::within(reuse_bytes)),
+            sources: library.map(Library::sources).unwrap_or_default(),
+            state: State::over(library),
             graph: Graph::new(),
             files: Files::default(),
             failing: FxHashSet::default(),
@@ -139,7 +152,7 @@ impl Session {
     /// `-D NAME=EXPR`: gives a name another definition, also in scripts that are still to come.
     pub fn set(&mut self, name: &str, expression: &str) -> Outcome {
         let first = self.undo.iter().all(|done| done.title.starts_with("-D "));
-        let known = first || self.state.get(name).is_some() || self.state.readers(name).next().is_some();
+        let known = first || self.state.find(name).is_some() || self.state.readers(name).next().is_some();
         let id = self.sources.add(format!("-D {name}"), format!("{name} = {expression};"));
         if !known {
             let span = crate::source::Span::new(id, 0, name.len());
@@ -231,6 +244,13 @@ impl Session {
         &self.limits
     }
 
+    /// Begins a question: results of earlier ones that it does not ask for may make room for its own.
+    pub(super) fn turn(&self) {
+        if let Some(reuse) = self.interrupt.reuse() {
+            reuse.turn();
+        }
+    }
+
     /// The cancel token.
     #[must_use]
     pub fn interrupt(&self) -> &Interrupt {
@@ -307,7 +327,13 @@ impl Session {
         names
     }
 
-    /// Whether the name is defined.
+    /// The library that it stands on, unless it goes without.
+    #[must_use]
+    pub fn library(&self) -> Option<&'static Library> {
+        self.state.library()
+    }
+
+    /// Whether the user defined the name.
     #[must_use]
     pub fn is_defined(&self, name: &str) -> bool {
         self.state.get(name).is_some()

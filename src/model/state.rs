@@ -10,6 +10,7 @@ use crate::field::Coordinates;
 use crate::syntax::tree::{GeometricType, Name};
 
 use super::definition::{Definition, DefinitionId, SystemInForce};
+use super::library::Library;
 use super::value::Value;
 
 /// The kept result of a definition.
@@ -57,6 +58,8 @@ pub enum Change {
     Pinned(Name, bool),
     /// A kept value. Only for taking back a failed input; accepted ones drop these.
     Kept(DefinitionId, Option<Kept>),
+    /// The Cartesian products that a value is made with; the same holds.
+    Products(DefinitionId, Vec<[Coordinates; 2]>),
     /// The end of the list of statements: its length and what stood beyond.
     Program(usize, Vec<Entry>),
 }
@@ -88,6 +91,8 @@ pub struct State {
     stale: Vec<Arc<Definition>>,
     /// Kept results after the last sweep.
     swept: usize,
+    /// The library, unless the session goes without.
+    library: Option<&'static Library>,
 }
 
 /// Cartesian products that are remembered of one definition.
@@ -115,13 +120,44 @@ impl Readers {
 }
 
 impl State {
-    /// The definition of a name.
+    /// A state that knows nothing but the library, or nothing at all.
+    #[must_use]
+    pub fn over(library: Option<&'static Library>) -> Self {
+        Self { library, ..Self::default() }
+    }
+
+    /// The library, unless the session goes without.
+    #[must_use]
+    pub fn library(&self) -> Option<&'static Library> {
+        self.library
+    }
+
+    /// What a name means to the user: the user's own definition, else the library's.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<&Arc<Definition>> {
+        self.names.get(name).or_else(|| self.library?.get(name))
+    }
+
+    /// What a name means in the formula of a definition: the library's definitions see the library's names, whatever the user
+    /// defines.
+    #[must_use]
+    pub fn find_for(&self, reader: &Definition, name: &str) -> Option<&Arc<Definition>> {
+        if reader.is_library() { self.library?.get(name) } else { self.find(name) }
+    }
+
+    /// Whether the name is the library's, and not the user's.
+    #[must_use]
+    pub fn is_library(&self, name: &str) -> bool {
+        !self.names.contains_key(name) && self.library.is_some_and(|library| library.has(name))
+    }
+
+    /// The user's definition of a name.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Arc<Definition>> {
         self.names.get(name)
     }
 
-    /// All names that are defined, in no order.
+    /// All names that the user defined, in no order.
     pub fn names(&self) -> impl Iterator<Item = &Name> {
         self.names.keys()
     }
@@ -263,6 +299,7 @@ impl State {
     pub fn note_product(&mut self, id: DefinitionId, sides: [Coordinates; 2]) {
         let all = self.products.entry(id).or_default();
         if all.len() < MOST_PRODUCTS && !all.contains(&sides) {
+            self.journal.push(Change::Products(id, all.clone()));
             all.push(sides);
         }
     }
@@ -304,7 +341,8 @@ impl State {
         let mut waiting: Vec<Arc<Definition>> = self.readers.get(name).map(|r| r.iter().collect()).unwrap_or_default();
         while let Some(definition) = waiting.pop() {
             let Some(kept) = self.kept.remove(&definition.id) else { continue };
-            self.products.remove(&definition.id);
+            let products = self.products.remove(&definition.id).unwrap_or_default();
+            self.journal.push(Change::Products(definition.id, products));
             self.journal.push(Change::Kept(definition.id, Some(kept)));
             for output in &definition.outputs {
                 if self.is_current_for(output, &definition) {
@@ -386,6 +424,7 @@ impl State {
                     None => self.kept.remove(id),
                 };
             }
+            Change::Products(id, products) => std::mem::swap(self.products.entry(*id).or_default(), products),
             Change::Program(length, beyond) => {
                 let end = self.program.len();
                 let cut = self.program.split_off((*length).min(end));
@@ -433,7 +472,7 @@ impl State {
     /// Closes an accepted input and gives the changes that undo it.
     pub fn accept(&mut self, mark: &Mark) -> Vec<Change> {
         let mut changes = self.journal.split_off(mark.journal.min(self.journal.len()));
-        changes.retain(|c| !matches!(c, Change::Kept(..)));
+        changes.retain(|c| !matches!(c, Change::Kept(..) | Change::Products(..)));
         if self.program.len() > mark.program {
             changes.push(Change::Program(mark.program, Vec::new()));
         }

@@ -1,8 +1,12 @@
 //! Where in a space an object can be, by intervals: what a camera should frame. Evaluates no points.
 
+use std::sync::Arc;
+
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
+use crate::reuse::Digest;
 use crate::surface::boxes::{Block, Lattice, Visitor, walk};
+use crate::surface::memory::Left;
 use crate::surface::sampler::Sampler;
 use crate::vm::{Program, Shape};
 
@@ -28,7 +32,7 @@ impl Extent {
     pub fn of(shape: &Shape, space: Space, interrupt: &Interrupt) -> Result<Self, Cancelled> {
         let mut extent = Self::nothing(space, shape.dimension);
         let done = walk(&Cells { space, dimension: shape.dimension }, shape, |_| Found::default(), interrupt)?;
-        done.visitors.iter().flat_map(|found| &found.0).for_each(|block| extent.add(block));
+        done.visitors.iter().flat_map(|found| &*found.0).for_each(|block| extent.add(block));
         Ok(extent)
     }
 
@@ -126,6 +130,11 @@ impl Lattice for Cells {
         std::array::from_fn(|k| if k < self.dimension { 16 } else { 1 })
     }
 
+    fn tell(&self, to: &mut Digest) -> bool {
+        to.shown(&("extent", self.space, self.dimension));
+        true
+    }
+
     fn bounds(&self, block: &Block, out: &mut [Interval]) {
         for (k, out) in out.iter_mut().enumerate() {
             *out = Interval::new(self.plane(k, block.from[k]), self.plane(k, block.to[k]));
@@ -135,16 +144,26 @@ impl Lattice for Cells {
 
 /// The blocks that are not certainly outside.
 #[derive(Default)]
-struct Found(Vec<Block>);
+struct Found(Arc<Vec<Block>>);
 
 impl Visitor for Found {
     fn uniform(&mut self, block: &Block, inside: bool) {
         if inside {
-            self.0.push(*block);
+            Arc::make_mut(&mut self.0).push(*block);
         }
     }
 
     fn leaf(&mut self, block: &Block, _program: &Program, _sampler: &mut Sampler) {
-        self.0.push(*block);
+        Arc::make_mut(&mut self.0).push(*block);
+    }
+
+    fn keep(&mut self) -> Option<Left> {
+        Some(Left { what: self.0.clone(), bytes: self.0.capacity() * size_of::<Block>() })
+    }
+
+    fn recall(&mut self, left: &Left) -> bool {
+        let Ok(blocks) = left.what.clone().downcast() else { return false };
+        self.0 = blocks;
+        true
     }
 }

@@ -44,7 +44,13 @@ pub fn sample(shape: &Shape, space: &[(f64, f64)], cells: usize, interrupt: &Int
         .par_chunks_mut(xs.len())
         .enumerate()
         .map_init(
-            || (Sampler::new(shape), [vec![0.0; xs.len()], vec![0.0; xs.len()]], vec![0.0; xs.len()]),
+            || {
+                (
+                    Sampler::new(shape).heeding(interrupt),
+                    [vec![0.0; xs.len()], vec![0.0; xs.len()]],
+                    vec![0.0; xs.len()],
+                )
+            },
             |(sampler, [y, z], values), (row, out)| {
                 interrupt.tick()?;
                 y.fill(ys[row % ys.len()]);
@@ -56,6 +62,7 @@ pub fn sample(shape: &Shape, space: &[(f64, f64)], cells: usize, interrupt: &Int
             },
         )
         .collect::<Result<_, Cancelled>>()?;
+    interrupt.tick()?;
     let mut counters = Counters::default();
     rows.into_iter().for_each(|row| counters.add(row));
     Ok(Field { size, origin: space.iter().map(|&(lo, _)| lo).collect(), spacing, samples, counters })

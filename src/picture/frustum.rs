@@ -1,6 +1,7 @@
 //! The space as a camera sees it: cells of the picture x cells of depth, and single rays. Evaluates nothing.
 
 use crate::number::Interval;
+use crate::reuse::Digest;
 use crate::surface::boxes::{Block, Lattice};
 
 use super::raycast::Space;
@@ -60,6 +61,11 @@ impl Lattice for Frustum {
     /// A ray seen whole is as good as the whole space, unless it runs along an axis.
     fn part(&self) -> [usize; 3] {
         [4 * self.scene.tile, 4 * self.scene.tile, 4 * LEAF_DEPTH]
+    }
+
+    fn tell(&self, to: &mut Digest) -> bool {
+        to.shown(&self.scene);
+        true
     }
 
     fn bounds(&self, block: &Block, out: &mut [Interval]) {

@@ -82,10 +82,9 @@ pub fn of(
     interrupt: &Interrupt,
 ) -> Result<(Curve, Counters), Cancelled> {
     assert_eq!(shape.dimension, 1, "a graph has one axis");
-    let mut sampler = Sampler::new(shape);
+    let mut sampler = Sampler::new(shape).heeding(interrupt);
     let curve = follow(lo, hi, count, &mut |xs, ys| {
-        // Once cancelled, what is left of the work costs nothing.
-        if interrupt.is_cancelled() { ys.fill(f64::NAN) } else { sampler.values(&shape.program, &[xs], ys) }
+        sampler.values(&shape.program, &[xs], ys);
     });
     interrupt.tick()?;
     Ok((curve, sampler.take_counters()))

@@ -71,7 +71,7 @@ impl Field {
         let across: Vec<f64> = (0..field.columns).map(|i| field.place(i, 0)[0]).collect();
         let mut values = std::mem::take(&mut field.values);
         let rows = values.par_chunks_exact_mut(field.columns).enumerate().map_init(
-            || Sampler::new(shape),
+            || Sampler::new(shape).heeding(interrupt),
             |sampler, (j, row)| {
                 interrupt.tick()?;
                 let up = vec![field.place(0, j)[1]; row.len()];
@@ -80,6 +80,7 @@ impl Field {
             },
         );
         let counts: Vec<Counters> = rows.collect::<Result<_, Cancelled>>()?;
+        interrupt.tick()?;
         let mut counters = Counters::default();
         counts.into_iter().for_each(|row| counters.add(row));
         Ok((Field { values, ..field }, counters))

@@ -2,6 +2,7 @@
 //! nothing.
 
 use super::palette::Palette;
+use crate::reuse::Digest;
 use crate::surface::sampler::Sampler;
 use crate::vm::Shape;
 
@@ -40,6 +41,21 @@ impl Paint {
             Self::Scale { shape, palette, ends: [lo, hi] } => {
                 let shown = |v: f64| unit(palette.colour((v - lo) / (hi - lo)));
                 values(shape, points, count).into_iter().map(shown).collect()
+            }
+        }
+    }
+
+    /// Tells all that the colours depend on.
+    pub fn tell(&self, to: &mut Digest) {
+        match self {
+            Self::Plain(colour) => to.shown(&("plain", colour)),
+            Self::Mix(mix) => {
+                to.text("mix");
+                mix.iter().for_each(|shape| shape.tell(to));
+            }
+            Self::Scale { shape, palette, ends } => {
+                to.shown(&("scale", palette, ends));
+                shape.tell(to);
             }
         }
     }

@@ -1,14 +1,19 @@
 //! A 2-D object as a filled picture: pixel (i, j) from the top left is the point `lo[0] + (i+1/2) (hi[0]-lo[0]) / W`,
 //! `hi[1] - (j+1/2) (hi[1]-lo[1]) / H`. Draws no axes and writes no files.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::image::Image;
 use super::paint::Paint;
 use super::palette::{Palette, bright, encode, linear};
+use super::scale::Scale;
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
+use crate::reuse::Digest;
 use crate::surface::boxes::{Block, Lattice, Visitor, walk};
+use crate::surface::memory::Left;
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::{Program, Shape};
 
@@ -61,6 +66,12 @@ pub struct Plot {
     pub met: bool,
 }
 
+impl Plot {
+    fn bytes(&self) -> usize {
+        self.image.rgba.len()
+    }
+}
+
 /// The picture of a shape with two axes.
 ///
 /// # Errors
@@ -76,6 +87,20 @@ pub fn plot(
     interrupt: &Interrupt,
 ) -> Result<Plot, Cancelled> {
     assert_eq!(shape.dimension, 2, "a plot shows a space of two axes");
+    let tell = |to: &mut Digest| {
+        to.shown(&("plot", window, size, fill));
+        shape.tell(to);
+    };
+    interrupt.whole("pictures", tell, Plot::bytes, || plotted(shape, window, size, fill, interrupt))
+}
+
+fn plotted(
+    shape: &Shape,
+    window: Window,
+    size: [usize; 2],
+    fill: Fill,
+    interrupt: &Interrupt,
+) -> Result<Plot, Cancelled> {
     if size.contains(&0) {
         return Ok(Plot { image: Image::new(size[0], size[1], [0; 3]), counters: Counters::default(), met: false });
     }
@@ -117,6 +142,23 @@ pub fn figures(
     interrupt: &Interrupt,
 ) -> Result<Plot, Cancelled> {
     assert!(figures.iter().all(|(shape, _)| shape.dimension == 2), "a plot shows a space of two axes");
+    let tell = |to: &mut Digest| {
+        to.shown(&("figures", window, size, ground));
+        figures.iter().for_each(|(shape, paint)| {
+            shape.tell(to);
+            paint.tell(to);
+        });
+    };
+    interrupt.whole("pictures", tell, Plot::bytes, || coloured(figures, window, size, ground, interrupt))
+}
+
+fn coloured(
+    figures: &[(Shape, Paint)],
+    window: Window,
+    size: [usize; 2],
+    ground: [u8; 4],
+    interrupt: &Interrupt,
+) -> Result<Plot, Cancelled> {
     let (mut counters, mut all) = (Counters::default(), Vec::new());
     let fine = fineness(size);
     let pixels = Pixels { window, size: size.map(|n| n * fine) };
@@ -237,6 +279,11 @@ impl Lattice for Pixels {
         [side, side, 1]
     }
 
+    fn tell(&self, to: &mut Digest) -> bool {
+        to.shown(&("pixels", self.window, self.size));
+        true
+    }
+
     fn bounds(&self, block: &Block, out: &mut [Interval]) {
         // Each step of the formulas is monotone in the index, rounding included, so the ends bound what lies between.
         out[0] = Interval::new(self.column(block.from[0]), self.column(block.to[0] - 1));
@@ -268,7 +315,7 @@ struct Signs<'a> {
     block: Block,
     /// What all samples are, as long as `inside` is empty.
     all: bool,
-    inside: Vec<Word>,
+    inside: Arc<Vec<Word>>,
     columns: [Vec<f64>; 2],
     values: Vec<f64>,
 }
@@ -324,10 +371,10 @@ impl Signs<'_> {
         let words = self.words();
         if self.inside.is_empty() {
             let all = if self.all { Word::MAX } else { 0 };
-            self.inside.resize(words * (self.block.to[1] - self.block.from[1]), all);
+            self.inside = Arc::new(vec![all; words * (self.block.to[1] - self.block.from[1])]);
         }
         let start = (j - self.block.from[1]) * words + (block.from[0] - self.block.from[0]) / LEAF;
-        &mut self.inside[start..start + (block.to[0] - block.from[0]).div_ceil(LEAF)]
+        &mut Arc::make_mut(&mut self.inside)[start..start + (block.to[0] - block.from[0]).div_ceil(LEAF)]
     }
 }
 
@@ -358,6 +405,17 @@ impl Visitor for Signs<'_> {
         }
         self.values = values;
         self.columns = [xs, ys];
+    }
+
+    fn keep(&mut self) -> Option<Left> {
+        let bytes = self.inside.capacity() * size_of::<Word>();
+        Some(Left { what: Arc::new((self.all, self.inside.clone())), bytes })
+    }
+
+    fn recall(&mut self, left: &Left) -> bool {
+        let Some((all, inside)) = left.what.downcast_ref::<(bool, Arc<Vec<Word>>)>() else { return false };
+        (self.all, self.inside) = (*all, inside.clone());
+        true
     }
 }
 
@@ -434,7 +492,7 @@ fn tasks<'a>(
         places,
         block: *block,
         all: false,
-        inside: Vec::new(),
+        inside: Arc::default(),
         columns: [Vec::new(), Vec::new()],
         values: Vec::new(),
     };
@@ -506,7 +564,7 @@ fn values(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<
         .par_chunks_mut(pixels.size[0].max(1))
         .enumerate()
         .map_init(
-            || (Sampler::new(shape), vec![0.0; columns.len()]),
+            || (Sampler::new(shape).heeding(interrupt), vec![0.0; columns.len()]),
             |(sampler, rows), (j, out)| {
                 interrupt.tick()?;
                 rows.fill(pixels.row(j));
@@ -516,34 +574,8 @@ fn values(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<
             },
         )
         .collect::<Result<_, Cancelled>>()?;
+    interrupt.tick()?;
     let mut counters = Counters::default();
     rows.into_iter().for_each(|row| counters.add(row));
     Ok((all, counters))
-}
-
-/// Bands of equal width that cover all values but the outermost hundredth on each side, which poles make huge.
-struct Scale {
-    first: f64,
-    step: f64,
-    count: f64,
-}
-
-impl Scale {
-    fn new(values: &[f64]) -> Self {
-        let mut finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-        finite.sort_by(f64::total_cmp);
-        let Some(last) = finite.len().checked_sub(1) else { return Self { first: 0.0, step: 1.0, count: 1.0 } };
-        let (lo, hi) = (finite[last / 100], finite[last - last / 100]);
-        let rough = ((hi - lo) / 12.0).max(f64::MIN_POSITIVE);
-        let power = libm::pow(10.0, libm::log10(rough).floor());
-        let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|&s| s >= rough).unwrap_or(rough);
-        let first = (lo / step).floor();
-        Self { first, step, count: ((hi / step).floor() - first + 1.0).max(1.0) }
-    }
-
-    fn light(&self, value: f64, palette: Palette) -> [f32; 3] {
-        let band = (value / self.step).floor() - self.first;
-        let colour = palette.colour((band + 0.5) / self.count).map(linear);
-        if value >= 0.0 { colour } else { colour.map(|v| v + 0.5 * (1.0 - v)) }
-    }
 }

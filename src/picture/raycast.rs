@@ -13,6 +13,7 @@ use super::rays::{Aim, Pattern, Scene, Tile, cast_on};
 use super::shade::Lights;
 use super::shadow::Shadows;
 use crate::interrupt::{Cancelled, Interrupt};
+use crate::reuse::Digest;
 use crate::surface::sampler::Counters;
 use crate::vm::Shape;
 
@@ -97,6 +98,12 @@ impl Thing {
         Self { shape, paint, opacity: 1.0 }
     }
 
+    fn tell(&self, to: &mut Digest) {
+        self.shape.tell(to);
+        self.paint.tell(to);
+        to.shown(&self.opacity);
+    }
+
     pub(super) fn is_opaque(&self) -> bool {
         self.opacity >= 1.0
     }
@@ -147,6 +154,21 @@ pub fn render(
     interrupt: &Interrupt,
 ) -> Result<Picture, Cancelled> {
     assert!(things.iter().all(|thing| thing.shape.dimension == 3), "rays are cast in a space of three axes");
+    let tell = |to: &mut Digest| {
+        to.shown(&(space, camera, style));
+        things.iter().for_each(|thing| thing.tell(to));
+    };
+    let bytes = |picture: &Picture| picture.image.rgba.len();
+    interrupt.whole("pictures", tell, bytes, || rendered(things, space, camera, style, interrupt))
+}
+
+fn rendered(
+    things: &[Thing],
+    space: Space,
+    camera: &Camera,
+    style: &Style,
+    interrupt: &Interrupt,
+) -> Result<Picture, Cancelled> {
     let [width, height] = style.size;
     let mut picture = Picture { image: Image::new(width, height, [0; 3]), counters: Counters::default(), hits: 0 };
     if width == 0 || height == 0 {

@@ -4,8 +4,13 @@
 //! The modelling space caps the object: a ray that enters the space inside the object hits the face there. What is thinner than a
 //! sample spacing along a ray is found where the function has a maximum between samples, as at silhouettes.
 
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
 use crate::interrupt::{Cancelled, Interrupt};
+use crate::reuse::Digest;
 use crate::surface::boxes::{Block, Visitor, points, walk_on};
+use crate::surface::memory::Left;
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::{Program, Shape};
 
@@ -140,7 +145,8 @@ pub fn cast_on<T: Send>(
     interrupt: &Interrupt,
 ) -> Result<Tiles<T>, Cancelled> {
     let frustum = Frustum::new(*scene);
-    let visitor = |block: &Block| Caster::new(&frustum, shape, aim, block, &finish);
+    let keeps = interrupt.reuse().is_some();
+    let visitor = |block: &Block| Caster::new(&frustum, (shape, aim), block, &finish, keeps);
     let done = walk_on(&frustum, shape, visitor, interrupt)?;
     let tiles = done.visitors.into_iter().filter_map(|caster| Some((caster.from, caster.size, caster.result?)));
     Ok((tiles.collect(), done.counters))
@@ -202,10 +208,25 @@ struct Caster<'a, T, F> {
     summits: Vec<Summit>,
     columns: Columns,
     result: Option<T>,
+    /// Whether its hits are to be kept for the next time, and those.
+    keeps: bool,
+    kept: Option<Arc<Hits>>,
+}
+
+/// Where the rays of a task met the object.
+struct Hits {
+    places: Vec<[f64; 2]>,
+    hits: Vec<Option<Hit>>,
 }
 
 impl<'a, T, F> Caster<'a, T, F> {
-    fn new(frustum: &'a Frustum, shape: &'a Shape, aim: Aim<'a>, block: &Block, finish: &'a F) -> Self {
+    fn new(
+        frustum: &'a Frustum,
+        (shape, aim): (&'a Shape, Aim<'a>),
+        block: &Block,
+        finish: &'a F,
+        keeps: bool,
+    ) -> Self {
         let [columns, rows, _] = block.counts();
         Self {
             frustum,
@@ -226,6 +247,8 @@ impl<'a, T, F> Caster<'a, T, F> {
             summits: Vec::new(),
             columns: Columns::default(),
             result: None,
+            keeps,
+            kept: None,
         }
     }
 
@@ -462,7 +485,7 @@ impl<'a, T, F> Caster<'a, T, F> {
         Some([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
     }
 
-    /// Turns depths on rays into hits.
+    /// Turns depths on rays into hits, with the gradients of a program.
     fn normals(&mut self, found: &[(usize, f64)], program: &Program, sampler: &mut Sampler) {
         if !self.aim.normals {
             for &(ray, depth) in found {
@@ -484,6 +507,14 @@ impl<'a, T, F> Caster<'a, T, F> {
         for (n, &(ray, depth)) in found.iter().enumerate() {
             self.hits[ray] = Some(self.rays[ray].hit(depth, [slopes[0][n], slopes[1][n], slopes[2][n]]));
         }
+    }
+}
+
+impl<T, F: Fn(Tile<'_>) -> T> Caster<'_, T, F> {
+    /// Lets the hits become what is wanted of them.
+    fn hand_over(&mut self, done: &Hits) {
+        let tile = Tile { from: self.from, size: self.size, hits: &done.hits, places: &done.places };
+        self.result = Some((self.finish)(tile));
     }
 }
 
@@ -522,10 +553,39 @@ impl<T: Send, F: Fn(Tile<'_>) -> T + Sync> Visitor for Caster<'_, T, F> {
             self.normals(&bare, &program, sampler);
         }
         self.mend();
-        let finish = self.finish;
-        self.result = Some(finish(Tile { from: self.from, size: self.size, hits: &self.hits, places: &self.places }));
+        let done = Hits { places: std::mem::take(&mut self.places), hits: std::mem::take(&mut self.hits) };
+        self.hand_over(&done);
+        // Normals of bare rays are those of the whole program, which may change where the task's own does not.
+        self.kept = (self.keeps && bare.is_empty()).then(|| Arc::new(done));
         // What is kept until all tasks are done is the result alone.
-        (self.places, self.rays, self.hits, self.known) = Default::default();
+        (self.rays, self.known) = Default::default();
         (self.tiles, self.segments, self.samples, self.columns) = Default::default();
+    }
+
+    fn tell(&self, to: &mut Digest) {
+        to.shown(&(self.aim.tolerance, self.aim.normals));
+        match self.aim.pattern {
+            Pattern::Middles => to.write_u8(0),
+            Pattern::Corners => to.write_u8(1),
+            Pattern::Shares(fine, marked) => {
+                (2_u8, fine).hash(to);
+                for row in self.from[1]..self.from[1] + self.size[1] {
+                    let first = row * self.frustum.scene.rays[0] + self.from[0];
+                    marked[first..first + self.size[0]].hash(to);
+                }
+            }
+        }
+    }
+
+    fn keep(&mut self) -> Option<Left> {
+        let hits = self.kept.take()?;
+        let bytes = hits.places.capacity() * size_of::<[f64; 2]>() + hits.hits.capacity() * size_of::<Option<Hit>>();
+        Some(Left { what: hits, bytes })
+    }
+
+    fn recall(&mut self, left: &Left) -> bool {
+        let Ok(hits) = left.what.clone().downcast::<Hits>() else { return false };
+        self.hand_over(&hits);
+        true
     }
 }

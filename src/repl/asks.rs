@@ -76,7 +76,11 @@ pub fn time(repl: &mut Repl, _: &str) -> Flow {
     }
     let counts: Vec<String> = costs.counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
     if !counts.is_empty() {
-        let _ = writeln!(text, "{} evaluated", counts.join(", "));
+        let how = if costs.kept.is_nothing() { "evaluated" } else { "in all, what was kept included" };
+        let _ = writeln!(text, "{} {how}", counts.join(", "));
+    }
+    if !costs.kept.is_nothing() {
+        let _ = writeln!(text, "kept from before: {}", costs.kept);
     }
     repl.show(text.trim_end())
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::cli::arguments::Making;
-use crate::cli::{make, session, status::Status, text, words};
+use crate::cli::{make, session, status::Status, text};
 use crate::host::{Disk, Host};
 use crate::model::request::{FORMATS, Kind, Output};
 use crate::{builtins, cli};
@@ -232,12 +232,9 @@ pub fn doc(repl: &mut Repl, name: &str) -> Flow {
         let doc: Vec<String> = doc.lines().map(|line| format!("    {}", line.trim())).collect();
         return repl.show(&format!("{}\n{}", repl.session.describe(name), doc.join("\n")));
     }
-    match builtins::find(name) {
-        Some(builtin) => repl.show(&text::explain(builtin)),
-        None => match words::explain(name) {
-            Some(told) => repl.show(&told),
-            None => unknown_name(repl, name),
-        },
+    match text::known(name, repl.session.library()) {
+        Some(told) => repl.show(&told),
+        None => unknown_name(repl, name),
     }
 }
 
@@ -245,12 +242,15 @@ pub fn doc(repl: &mut Repl, name: &str) -> Flow {
 pub fn definition(repl: &mut Repl, name: &str) -> Flow {
     match repl.session.definition(name) {
         Some(source) => repl.show(&source),
-        None => doc(repl, name),
+        None => match repl.session.library().and_then(|library| library.definition(name)) {
+            Some(source) => repl.show(source),
+            None => doc(repl, name),
+        },
     }
 }
 
 fn unknown_name(repl: &mut Repl, name: &str) -> Flow {
-    let names = repl.names();
+    let names = repl.all_names();
     let candidates = builtins::all().flat_map(builtins::Builtin::names).map(|known: &str| known);
     let near = text::near(name, names.iter().map(String::as_str).chain(candidates))
         .map(|other| format!("; did you mean `{other}`?"))

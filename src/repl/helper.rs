@@ -27,7 +27,7 @@ const MOST: usize = 64 << 10;
 /// The helper of the editor.
 #[derive(Debug, Default)]
 pub struct Assistant {
-    /// The user's own names.
+    /// The user's own names, and those of the library.
     pub names: Vec<String>,
     /// Whether to colour.
     pub colour: bool,
@@ -154,7 +154,7 @@ impl Assistant {
         }
     }
 
-    /// The user's names first, as they are written; keywords and built-ins in any case.
+    /// The user's names and the library's first, as they are written; keywords and built-ins in any case.
     fn word(&self, before: &str) -> (usize, Vec<String>) {
         let start = before.rfind(|c: char| !c.is_alphanumeric() && c != '_').map_or(0, |i| i + width(&before[i..]));
         let word = &before[start..];

@@ -25,6 +25,7 @@ use crate::cli::show;
 use crate::cli::status::Status;
 use crate::host::{FileError, state_folder};
 use crate::interrupt::Costs;
+use crate::model::library::Library;
 use crate::model::request::headline;
 use crate::model::{Event, Session, settings};
 use crate::syntax::Mode;
@@ -92,7 +93,7 @@ impl Repl {
                         break;
                     }
                     if let Some(assistant) = editor.helper_mut() {
-                        assistant.names = self.names();
+                        assistant.names = self.all_names();
                     }
                 }
                 Err(ReadlineError::Interrupted) => {}
@@ -113,7 +114,7 @@ impl Repl {
         let config = Config::builder().max_history_size(HISTORY)?.color_mode(mode).build();
         let history = MemHistory::with_config(&config);
         let mut editor = Editor::with_history(config, history)?;
-        editor.set_helper(Some(Assistant { names: self.names(), colour }));
+        editor.set_helper(Some(Assistant { names: self.all_names(), colour }));
         for input in self.memory.history() {
             // The editor's own history only refuses what is already there.
             let _ = editor.add_history_entry(input);
@@ -244,8 +245,11 @@ impl Repl {
         result + &text[end..]
     }
 
-    fn names(&self) -> Vec<String> {
-        self.session.names()
+    /// The user's names, then those of the library.
+    fn all_names(&self) -> Vec<String> {
+        let mut names = self.session.names();
+        names.extend(self.session.library().into_iter().flat_map(Library::names).map(str::to_owned));
+        names
     }
 
     /// A disk that keeps no history is told of once; the prompt goes on.

@@ -12,9 +12,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::memory::{Left, Memory, Tally};
 use super::sampler::{Counters, Sampler};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
+use crate::reuse::Digest;
 use crate::vm::interval::Boxes;
 use crate::vm::specialise::Writer;
 use crate::vm::{Precision, Program, Shape};
@@ -71,6 +73,12 @@ pub trait Lattice: Sync {
     /// Writes bounds of each coordinate of the space (`Shape::dimension` of them) over `block`. They must hold every point that the
     /// visitor will evaluate for that block, as it is computed in floating point.
     fn bounds(&self, block: &Block, out: &mut [Interval]);
+
+    /// Tells a digest which sample points these are, of all that there could be; `false` if nothing of a walk over them is to be kept for
+    /// the next time.
+    fn tell(&self, _to: &mut Digest) -> bool {
+        false
+    }
 }
 
 /// What is done with the boxes of one task.
@@ -88,6 +96,20 @@ pub trait Visitor: Send {
 
     /// The task is done: a visitor may turn what it gathered into something smaller.
     fn finish(&mut self, _sampler: &mut Sampler) {}
+
+    /// Tells what its result depends on besides the lattice, the block and the program that is right inside it; asked before anything
+    /// else of the task, where [`Lattice::tell`] said yes.
+    fn tell(&self, _to: &mut Digest) {}
+
+    /// What may be kept of its result now that it is done; `None` if it is not for another time.
+    fn keep(&mut self) -> Option<Left> {
+        None
+    }
+
+    /// Takes what another visitor kept of the same task, instead of all other calls. `false` if it cannot.
+    fn recall(&mut self, _left: &Left) -> bool {
+        false
+    }
 }
 
 /// What a walk brings back.
@@ -135,11 +157,20 @@ where
     let room = room(lattice, shape, &whole);
     let tasks = gather_tasks(lattice, (shape, room), whole, &mut counters, interrupt)?;
     let walkers = Pool::default();
-    let done: Vec<(V, Counters)> = tasks
+    let memory = Memory::of(lattice, (shape, room), interrupt);
+    let done: Vec<(V, Counters, bool)> = tasks
         .into_par_iter()
         .map(|task| {
-            let mut walker = walkers.take(|| Walker::new(lattice, (shape, room), interrupt));
             let mut own = visitor(&task.block);
+            let open = task.parts.iter().any(|part| part.program().is_some());
+            let memory = memory.as_ref().filter(|_| open);
+            let key = memory.map(|memory| memory.key(&own, &task.block, task.told()));
+            if let Some(counters) = memory.zip(key).and_then(|(memory, key)| memory.recall(&mut own, key)) {
+                interrupt.tick()?;
+                interrupt.advance(task.block.points());
+                return Ok((own, counters, true));
+            }
+            let mut walker = walkers.take(|| Walker::new(lattice, (shape, room), interrupt));
             for Piece { block, state } in &task.parts {
                 match state {
                     State::Decided(inside) => walker.decide(&mut own, block, *inside),
@@ -147,15 +178,26 @@ where
                 }
             }
             own.finish(&mut walker.sampler);
-            let cost = walker.take_counters();
+            let counters = walker.take_counters();
             walkers.give(walker);
-            Ok((own, cost))
+            if let Some((memory, key)) = memory.zip(key) {
+                // Nothing that was evaluated after the interrupt was set may outlive it.
+                interrupt.tick()?;
+                memory.keep(&mut own, key, &counters);
+            }
+            Ok((own, counters, false))
         })
         .collect::<Result<_, Cancelled>>()?;
     let mut visitors = Vec::with_capacity(done.len());
-    for (own, cost) in done {
+    let mut tally = Tally::default();
+    tally.count(&counters, false);
+    for (own, cost, was_kept) in done {
+        tally.count(&cost, was_kept);
         visitors.push(own);
         counters.add(cost);
+    }
+    if memory.is_some() {
+        interrupt.kept_pieces(tally.0);
     }
     Ok(Walk { visitors, counters })
 }
@@ -206,7 +248,7 @@ fn gather_tasks<L: Lattice>(
                 interrupt.tick()?;
                 match &piece.state {
                     State::Open(program) if !piece.block.fits(floor) => {
-                        let mut level = levels.take(|| Box::new(Level::new(shape, room)));
+                        let mut level = levels.take(|| Box::new(Level::new((shape, room), interrupt)));
                         level.examine(lattice, program, &piece.block, floor);
                         let parts = if alone { level.pieces_together(program) } else { level.pieces(program) };
                         let boxes = level.children.len() as u64;
@@ -253,6 +295,14 @@ fn columns(pieces: Vec<Piece>, task: [usize; 3]) -> Vec<Task> {
 impl Task {
     fn of(piece: Piece) -> Self {
         Self { block: piece.block, parts: vec![piece] }
+    }
+
+    /// Its pieces, each with its program or whether it is inside.
+    fn told(&self) -> impl Iterator<Item = (&Block, Result<&Program, bool>)> {
+        self.parts.iter().map(|Piece { block, state }| match state {
+            State::Open(program) => (block, Ok(&**program)),
+            State::Decided(inside) => (block, Err(*inside)),
+        })
     }
 }
 
@@ -346,7 +396,8 @@ impl<'a, L: Lattice> Walker<'a, L> {
         if self.levels.len() <= depth {
             self.levels.resize_with(depth + 1, || None);
         }
-        let mut level = self.levels[depth].take().unwrap_or_else(|| Box::new(Level::new(self.shape, self.room)));
+        let new = || Box::new(Level::new((self.shape, self.room), self.interrupt));
+        let mut level = self.levels[depth].take().unwrap_or_else(new);
         level.examine(self.lattice, program, block, self.lattice.leaf());
         self.boxes += level.children.len() as u64;
         for lane in 0..level.children.len() {
@@ -391,7 +442,7 @@ struct Level {
 }
 
 impl Level {
-    fn new(shape: &Shape, room: f64) -> Self {
+    fn new((shape, room): (&Shape, f64), interrupt: &Interrupt) -> Self {
         let nothing = Interval::new(0.0, 0.0);
         let mut inputs = vec![[nothing; LANES]; shape.dimension];
         inputs.extend(shape.fixed.iter().map(|&value| [fixed(value); LANES]));
@@ -400,7 +451,7 @@ impl Level {
             inputs,
             coordinates: vec![nothing; shape.dimension],
             values: [nothing; LANES],
-            boxes: Boxes::new(),
+            boxes: Boxes::heeding(interrupt),
             shorter: None,
             room,
         }

@@ -4,12 +4,14 @@
 //! A brick owns its points, the edges that start at them and the cells whose lowest corner they are. It evaluates the next plane of points on
 //! each axis too, so that it can find its own vertices; who joins them asks the owner for every sign.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::boxes::{Block, Visitor, Walk, walk};
 use super::detail::{self, Detail};
 use super::grid::{BYTES_PER_VERTEX, Grid, LEAF};
 use super::marching::SurfaceError;
+use super::memory::Left;
 use super::mesh::unit;
 use super::roots::{Crossing, Roots};
 use super::sampler::{Counters, Sampler};
@@ -121,14 +123,14 @@ impl Bricks {
         let found = AtomicUsize::new(0);
         let gathering = |_: &Block| Gathering::new(grid, &found, most_vertices);
         let Walk { visitors, counters } = walk(grid, shape, gathering, interrupt)?;
-        let vertices = visitors.iter().map(|part| part.positions.len()).sum::<usize>();
+        let vertices = visitors.iter().map(|visitor| visitor.part.positions.len()).sum::<usize>();
         if vertices > most_vertices {
             return Err(SurfaceError::Memory(limits.memory_bytes));
         }
         let mut all = Self {
             grid: *grid,
             most_vertices,
-            bricks: Vec::with_capacity(visitors.iter().map(|part| part.bricks.len()).sum()),
+            bricks: Vec::with_capacity(visitors.iter().map(|visitor| visitor.part.bricks.len()).sum()),
             positions: Vec::with_capacity(vertices),
             normals: Vec::with_capacity(vertices),
             counters,
@@ -136,17 +138,16 @@ impl Bricks {
             directory: vec![OUTSIDE; leaves.iter().product()],
         };
         let mut suspects = Vec::new();
-        for part in visitors {
+        for Gathering { part, .. } in visitors {
             suspects.extend_from_slice(&part.suspects);
             for block in &part.inside {
                 all.mark_inside(block);
             }
             let first = all.positions.len() as u32;
-            for mut brick in part.bricks {
-                brick.first += first;
+            for brick in &part.bricks {
                 let place = all.place(brick.at);
                 all.directory[place] = all.bricks.len() as u32;
-                all.bricks.push(brick);
+                all.bricks.push(Brick { first: brick.first + first, ..brick.clone() });
             }
             all.positions.extend_from_slice(&part.positions);
             all.normals.extend_from_slice(&part.normals);
@@ -220,12 +221,28 @@ struct Gathering<'a> {
     grid: &'a Grid,
     found: &'a AtomicUsize,
     most: usize,
+    /// Shared only once the task is done.
+    part: Arc<Part>,
+    scratch: Scratch,
+}
+
+/// What there is in the block of a task.
+#[derive(Clone, Debug, Default)]
+struct Part {
     inside: Vec<Block>,
     bricks: Vec<Brick>,
     positions: Vec<[f64; 3]>,
     normals: Vec<[f64; 3]>,
     suspects: Vec<Detail>,
-    scratch: Scratch,
+}
+
+impl Part {
+    fn bytes(&self) -> usize {
+        self.inside.capacity() * size_of::<Block>()
+            + self.bricks.capacity() * size_of::<Brick>()
+            + (self.positions.capacity() + self.normals.capacity()) * size_of::<[f64; 3]>()
+            + self.suspects.capacity() * size_of::<Detail>()
+    }
 }
 
 #[derive(Default)]
@@ -239,9 +256,11 @@ struct Scratch {
 
 impl<'a> Gathering<'a> {
     fn new(grid: &'a Grid, found: &'a AtomicUsize, most: usize) -> Self {
-        let (inside, bricks, positions, normals) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (suspects, scratch) = (Vec::new(), Scratch::default());
-        Self { grid, found, most, inside, bricks, positions, normals, suspects, scratch }
+        Self { grid, found, most, part: Arc::default(), scratch: Scratch::default() }
+    }
+
+    fn part(&mut self) -> &mut Part {
+        Arc::make_mut(&mut self.part)
     }
 
     /// Evaluates the block and the next plane on each axis; x fastest. Returns the points along each side.
@@ -269,9 +288,10 @@ impl<'a> Gathering<'a> {
     fn solve(&mut self, program: &Program, sampler: &mut Sampler) {
         let dimension = self.grid.dimension();
         let Scratch { columns, values, slopes, crossings, roots } = &mut self.scratch;
-        let first = self.positions.len();
-        roots.solve(crossings, dimension, program, sampler, &mut self.positions);
-        let found = &self.positions[first..];
+        let part = Arc::make_mut(&mut self.part);
+        let first = part.positions.len();
+        roots.solve(crossings, dimension, program, sampler, &mut part.positions);
+        let found = &part.positions[first..];
         for (axis, column) in columns.iter_mut().enumerate() {
             column.clear();
             column.extend(found.iter().map(|p| p[axis]));
@@ -284,11 +304,24 @@ impl<'a> Gathering<'a> {
         let [a, b, c] = slopes;
         sampler.slopes(program, &[&x[..], y, z][..dimension], values, &mut [&mut a[..], b, c][..dimension]);
         let slopes = a.iter().zip(b.iter()).zip(c.iter());
-        self.normals.extend(slopes.map(|((&a, &b), &c)| unit([-a, -b, -c]).unwrap_or([0.0; 3])));
+        part.normals.extend(slopes.map(|((&a, &b), &c)| unit([-a, -b, -c]).unwrap_or([0.0; 3])));
     }
 }
 
 impl Visitor for Gathering<'_> {
+    /// Nothing of what was broken off.
+    fn keep(&mut self) -> Option<Left> {
+        let is_whole = self.found.load(Ordering::Relaxed) <= self.most;
+        is_whole.then(|| Left { what: self.part.clone(), bytes: self.part.bytes() })
+    }
+
+    fn recall(&mut self, left: &Left) -> bool {
+        let Ok(part) = left.what.clone().downcast::<Part>() else { return false };
+        self.found.fetch_add(part.positions.len(), Ordering::Relaxed);
+        self.part = part;
+        true
+    }
+
     /// Nothing more once all tasks together have found too many vertices.
     fn wants(&mut self, _block: &Block) -> bool {
         self.found.load(Ordering::Relaxed) <= self.most
@@ -296,20 +329,20 @@ impl Visitor for Gathering<'_> {
 
     fn uniform(&mut self, block: &Block, inside: bool) {
         if inside {
-            self.inside.push(*block);
+            self.part().inside.push(*block);
         }
     }
 
     fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) {
         let side = self.evaluate(block, program, sampler);
         let signs = Signs::of(&self.scratch.values, side);
-        if self.suspects.len() < detail::SUSPECTS {
+        if self.part.suspects.len() < detail::SUSPECTS {
             let points = detail::Points { grid: self.grid, from: block.from, side, values: &self.scratch.values };
             let found = match signs.uniform {
                 Some(inside) => points.hidden(inside, program, sampler).or_else(|| points.sheet(program, sampler)),
                 None => points.sheet(program, sampler),
             };
-            self.suspects.extend(found);
+            self.part().suspects.extend(found);
         }
         if let Some(inside) = signs.uniform {
             self.uniform(block, inside);
@@ -318,8 +351,8 @@ impl Visitor for Gathering<'_> {
         let at = block.from.map(|i| i / LEAF);
         let crossed: [[u64; LEAF]; 3] = std::array::from_fn(|axis| signs.crossed(axis, side));
         let (before, count) = Brick::count(&crossed);
-        let first = self.positions.len() as u32;
-        self.bricks.push(Brick { at, inside: signs.owned(), crossed, before, first });
+        let first = self.part.positions.len() as u32;
+        self.part().bricks.push(Brick { at, inside: signs.owned(), crossed, before, first });
         self.found.fetch_add(usize::from(count), Ordering::Relaxed);
         self.scratch.crossings.clear();
         self.scratch.crossings.reserve(usize::from(count));

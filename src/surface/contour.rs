@@ -10,6 +10,7 @@ use super::marching::{Report, SurfaceError};
 use super::sampler::{Counters, Sampler};
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
+use crate::reuse::Digest;
 use crate::vm::Shape;
 
 /// The outlines of a 2-D shape.
@@ -59,6 +60,15 @@ fn signed_area(line: &[[f64; 2]]) -> f64 {
 /// # Errors
 /// See [`SurfaceError`].
 pub fn outlines(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Contour, SurfaceError> {
+    let tell = |to: &mut Digest| {
+        shape.tell(to);
+        to.shown(&(grid, limits.memory_bytes));
+    };
+    let bytes = |of: &Contour| of.lines.iter().map(|line| line.len() * size_of::<[f64; 2]>()).sum();
+    interrupt.whole("figures", tell, bytes, || outline(shape, grid, limits, interrupt))
+}
+
+fn outline(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Contour, SurfaceError> {
     if shape.dimension != 2 || grid.dimension() != 2 {
         return Err(SurfaceError::Dimension(shape.dimension, 2));
     }

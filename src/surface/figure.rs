@@ -7,6 +7,7 @@ use super::grid::Grid;
 use super::marching::{Report, SurfaceError};
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
+use crate::reuse::Digest;
 use crate::vm::Shape;
 
 /// What can be measured of a plane figure. Lengths are the units of the space, density is 1.
@@ -39,6 +40,14 @@ pub struct Figure {
 /// # Errors
 /// See [`SurfaceError`].
 pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Figure, SurfaceError> {
+    let tell = |to: &mut Digest| {
+        shape.tell(to);
+        to.shown(&(grid, limits.memory_bytes));
+    };
+    interrupt.whole("measures", tell, |_| size_of::<Figure>(), || measured(shape, grid, limits, interrupt))
+}
+
+fn measured(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Figure, SurfaceError> {
     let mut all = Vec::new();
     for grid in grid.coarser() {
         let found = outlines(shape, &grid, limits, interrupt)?;

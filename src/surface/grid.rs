@@ -5,6 +5,7 @@ use std::fmt;
 use super::boxes::{Block, Lattice};
 use super::sampler::span;
 use crate::number::Interval;
+use crate::reuse::Digest;
 
 /// Sample points along each axis of a leaf (a brick).
 pub const LEAF: usize = 8;
@@ -178,5 +179,10 @@ impl Lattice for Grid {
         for (axis, bounds) in out.iter_mut().enumerate() {
             *bounds = span(self.coordinate(axis, block.from[axis]), self.coordinate(axis, block.to[axis]));
         }
+    }
+
+    fn tell(&self, to: &mut Digest) -> bool {
+        to.shown(self);
+        true
     }
 }

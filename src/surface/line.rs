@@ -40,7 +40,7 @@ struct Piece {
 pub fn intervals(shape: &Shape, [lo, hi]: [f64; 2], interrupt: &Interrupt) -> Result<Line, Cancelled> {
     let mut counters = Counters::default();
     let mut pieces = vec![Piece { from: lo, to: hi, inside: None }];
-    let mut boxes = Boxes::new();
+    let mut boxes = Boxes::heeding(interrupt);
     for _ in 0..DEPTH {
         interrupt.tick()?;
         let open = pieces.iter().filter(|piece| piece.inside.is_none()).count();
@@ -63,6 +63,7 @@ pub fn intervals(shape: &Shape, [lo, hi]: [f64; 2], interrupt: &Interrupt) -> Re
     }
     let unknown: f64 = pieces.iter().filter(|p| p.inside.is_none()).map(|p| p.to - p.from).sum();
     decide(shape, &mut pieces, &mut counters, interrupt);
+    interrupt.tick()?;
     let inside: Vec<[f64; 2]> =
         merged(&pieces).iter().filter(|p| p.inside == Some(true)).map(|p| [p.from, p.to]).collect();
     let value = inside.iter().map(|[from, to]| to - from).sum();

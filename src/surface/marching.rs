@@ -18,6 +18,7 @@ use super::sampler::{Counters, Sampler};
 use super::table::{CASES, Edge, edge_start};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
+use crate::reuse::Digest;
 use crate::vm::{Precision, Shape};
 
 /// A mesh and what there is to say about it.
@@ -86,14 +87,22 @@ impl From<Cancelled> for SurfaceError {
 /// # Errors
 /// See [`SurfaceError`].
 pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Extraction, SurfaceError> {
-    match extract_once(shape, grid, limits, interrupt) {
+    let make = || match extract_once(shape, grid, limits, interrupt) {
         // Single precision, which took another branch than the intervals did.
         Err(SurfaceError::Contradiction(_)) if shape.precision == Precision::Single => {
             let double = Shape { precision: Precision::Double, ..shape.clone() };
             extract_once(&double, grid, limits, interrupt)
         }
         result => result,
-    }
+    };
+    let tell = |to: &mut Digest| {
+        shape.tell(to);
+        to.shown(&(grid, limits.memory_bytes));
+    };
+    let bytes = |of: &Extraction| {
+        of.mesh.positions.len() * size_of::<[[f64; 3]; 2]>() + of.mesh.triangles.len() * size_of::<[u32; 3]>()
+    };
+    interrupt.whole("meshes", tell, bytes, make)
 }
 
 fn extract_once(
@@ -135,7 +144,7 @@ fn extract_once(
     mesh.positions.extend_from_slice(&caps.positions);
     mesh.normals.extend_from_slice(&caps.normals);
     mesh.triangles = triangles;
-    mend_normals(&mut mesh, uncapped);
+    mend(&mut mesh, uncapped);
     Ok(Extraction { mesh, own, report })
 }
 
@@ -248,8 +257,14 @@ fn goes_on(shape: &Shape, caps: &Caps, points: &[u32], counters: &mut Counters, 
     found
 }
 
+/// Gives vertices without a normal that of the triangles about them.
+pub(super) fn mend_normals(mesh: &mut Mesh) {
+    let count = mesh.positions.len();
+    mend(mesh, count);
+}
+
 /// Where the gradient gave no normal, the sum of the normals of the triangles about the vertex does, weighted by area.
-fn mend_normals(mesh: &mut Mesh, count: usize) {
+fn mend(mesh: &mut Mesh, count: usize) {
     let missing: Vec<bool> = mesh.normals.iter().map(|n| *n == [0.0; 3]).collect();
     if !missing[..count].contains(&true) {
         return;

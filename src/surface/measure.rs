@@ -12,8 +12,9 @@ use super::grid::Grid;
 use super::marching::{Extraction, Report, SurfaceError, extract};
 use super::mesh::{Mesh, cross, dot, minus};
 use super::space::reach;
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
+use crate::reuse::Digest;
 use crate::vm::Shape;
 
 /// Accuracy of the bounding box, as a part of the space.
@@ -62,6 +63,12 @@ impl fmt::Display for MeasureError {
 
 impl std::error::Error for MeasureError {}
 
+impl From<Cancelled> for MeasureError {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::Surface(cancelled.into())
+    }
+}
+
 impl From<SurfaceError> for MeasureError {
     fn from(error: SurfaceError) -> Self {
         Self::Surface(error)
@@ -79,6 +86,14 @@ impl From<Fault> for MeasureError {
 /// # Errors
 /// See [`MeasureError`].
 pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Measures, MeasureError> {
+    let tell = |to: &mut Digest| {
+        shape.tell(to);
+        to.shown(&(grid, limits.memory_bytes, limits.search_operations));
+    };
+    interrupt.whole("measures", tell, |_| size_of::<Measures>(), || measured(shape, grid, limits, interrupt))
+}
+
+fn measured(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Measures, MeasureError> {
     let levels: Vec<Level> =
         grid.coarser().iter().map(|grid| Level::of(shape, grid, limits, interrupt)).collect::<Result<_, _>>()?;
     let fine = &levels[0];

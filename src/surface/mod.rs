@@ -18,10 +18,12 @@ pub mod grid;
 pub mod line;
 pub mod marching;
 pub mod measure;
+pub mod memory;
 pub mod mesh;
 pub mod roots;
 pub mod sampler;
 pub mod space;
+pub mod star;
 pub mod table;
 
 pub use check::{Fault, Topology, check};

@@ -110,7 +110,14 @@ impl Sampler {
     /// interrupt before the values are used.
     #[must_use]
     pub fn heeding(self, interrupt: &Interrupt) -> Self {
-        Self { interrupt: interrupt.clone(), ..self }
+        let single = |_| Box::new(Single { points: Points::heeding(interrupt), ..Single::default() });
+        Self {
+            points: Points::heeding(interrupt),
+            single: self.single.map(single),
+            gradients: Gradients::heeding(interrupt),
+            interrupt: interrupt.clone(),
+            ..self
+        }
     }
 
     /// How well coordinates are told apart, relative to their size.

@@ -71,7 +71,13 @@ pub enum Outcome {
 /// [`Cancelled`] soon after the interrupt was set.
 pub fn find(program: Arc<Program>, known: &[Known], work: usize, interrupt: &Interrupt) -> Result<Outcome, Cancelled> {
     interrupt.begin(0);
-    let mut search = Search::new(program, known, work as u64, interrupt);
+    let outcome = sought(Search::new(program, known, work as u64, interrupt));
+    // What was evaluated after the interrupt was set means nothing.
+    interrupt.tick()?;
+    outcome
+}
+
+fn sought(mut search: Search) -> Result<Outcome, Cancelled> {
     if search.sought.is_empty() {
         return Ok(Outcome::Within(search.outer, Proof::Everywhere));
     }
@@ -124,10 +130,14 @@ pub fn reach(
     for &(axis, up) in &ends {
         match search.climb(axis, up, Stop::Within(part * longest), share)? {
             Climb::Reach(at) => search.outer[axis][usize::from(up)] = at,
-            Climb::Nothing if search.inner.is_none() => return Ok(None),
+            Climb::Nothing if search.inner.is_none() => {
+                interrupt.tick()?;
+                return Ok(None);
+            }
             Climb::Nothing | Climb::Open | Climb::Endless => {}
         }
     }
+    interrupt.tick()?;
     let outer = search.outer;
     Ok(search.inner.map(|inner| {
         inner.iter().zip(&outer).map(|(inner, outer)| [[outer[0], inner[0]], [inner[1], outer[1]]]).collect()

@@ -4,6 +4,7 @@
 use super::kernels::{Kind, Store, doubles, singles};
 use super::program::Program;
 use super::region::{Counts, Pointwise, RegionProgram, RegionStore};
+use crate::interrupt::Interrupt;
 use crate::number::float::Float;
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
@@ -194,6 +195,12 @@ impl<T: Scalar> Points<T> {
     #[must_use]
     pub fn new() -> Self {
         Self { store: Store::new() }
+    }
+
+    /// The same, but once the interrupt is set loops and searches end at once, with values that mean nothing.
+    #[must_use]
+    pub fn heeding(interrupt: &Interrupt) -> Self {
+        Self { store: Store::heeding(interrupt) }
     }
 
     /// What loops and searches have cost since the last call.

@@ -4,6 +4,7 @@
 use super::kernels::{Kind, Store, duals};
 use super::program::Program;
 use super::region::{Counts, Pointwise, RegionProgram, RegionStore};
+use crate::interrupt::Interrupt;
 use crate::number::dual::Dual;
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
@@ -101,6 +102,12 @@ impl Gradients {
     #[must_use]
     pub fn new() -> Self {
         Self { store: Store::new() }
+    }
+
+    /// The same, but once the interrupt is set loops and searches end at once, with values that mean nothing.
+    #[must_use]
+    pub fn heeding(interrupt: &Interrupt) -> Self {
+        Self { store: Store::heeding(interrupt) }
     }
 
     /// What loops and searches have cost since the last call.

@@ -5,6 +5,7 @@ use super::kernels::{Kind, Operands, Store, ranges};
 use super::program::{Op, Program};
 use super::region::{RegionProgram, RegionStore};
 use super::specialise::{Marks, Scratch};
+use crate::interrupt::Interrupt;
 use crate::number::{Binary, Interval, Leaf, Ternary, Unary};
 
 /// Boxes at a time.
@@ -97,7 +98,13 @@ impl Boxes {
     /// An evaluator without storage yet.
     #[must_use]
     pub fn new() -> Self {
-        Self { store: Store::new(), choices: Choices::default(), scratch: Scratch::default() }
+        Self::heeding(&Interrupt::default())
+    }
+
+    /// The same, but once the interrupt is set loops and searches end at once, with bounds that say nothing.
+    #[must_use]
+    pub fn heeding(interrupt: &Interrupt) -> Self {
+        Self { store: Store::heeding(interrupt), choices: Choices::default(), scratch: Scratch::default() }
     }
 
     /// Bounds of the values over `out.len()` boxes, at most [`LANES`]: `boxes` has one slice of that length per input of the program.

@@ -9,6 +9,7 @@ use multiversion::multiversion;
 
 use super::program::{Op, Program, Value};
 use super::region::{Counts, RegionProgram, RegionStore};
+use crate::interrupt::Interrupt;
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
 /// A kind of number to evaluate with, and how a block of them lies in memory.
@@ -61,11 +62,19 @@ pub(crate) struct Store<K: Kind> {
     regions: Vec<RegionStore<K>>,
     /// Lanes that are asked for, of those that are computed.
     pub(crate) live: usize,
+    /// What loops and searches ask whether to go on.
+    pub(crate) interrupt: Interrupt,
 }
 
 impl<K: Kind> Store<K> {
     pub(crate) fn new() -> Self {
-        Self { slots: Vec::new(), spare: Box::default(), regions: Vec::new(), live: 0 }
+        Self::heeding(&Interrupt::default())
+    }
+
+    /// A store whose loops and searches end once the interrupt is set, with results that mean nothing.
+    pub(crate) fn heeding(interrupt: &Interrupt) -> Self {
+        let interrupt = interrupt.clone();
+        Self { slots: Vec::new(), spare: Box::default(), regions: Vec::new(), live: 0, interrupt }
     }
 
     /// Makes room for a program; allocates only for more slots than ever before.
@@ -74,7 +83,7 @@ impl<K: Kind> Store<K> {
             self.slots.push(Box::default());
         }
         while self.regions.len() < program.regions.len() {
-            self.regions.push(RegionStore::new());
+            self.regions.push(RegionStore::heeding(&self.interrupt));
         }
     }
 

@@ -4,6 +4,7 @@
 pub mod block;
 mod choice;
 pub mod compile;
+mod fingerprint;
 pub mod gradient;
 pub mod interval;
 mod kernels;

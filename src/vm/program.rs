@@ -21,7 +21,7 @@ pub(crate) type Value = u32;
 
 /// Which question about a value is asked where only a sign matters. Below a complement more than inside or not must be kept: an
 /// undefined value stays undefined there, while a negative one turns positive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Side {
     /// Whether it is >= 0; undefined is not.
     Inside,

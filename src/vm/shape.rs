@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::program::Program;
+use crate::reuse::Digest;
 
 /// What surfaces and pictures take: an object in a space of `dimension` axes.
 #[derive(Clone, Debug)]
@@ -33,5 +34,11 @@ impl Shape {
     pub fn new(program: Program, dimension: usize, fixed: Vec<f64>) -> Self {
         debug_assert_eq!(program.inputs().len(), dimension + fixed.len());
         Self { program: Arc::new(program), dimension, fixed, precision: Precision::Double }
+    }
+
+    /// Tells all that its values depend on.
+    pub fn tell(&self, to: &mut Digest) {
+        to.shown(&(self.dimension, self.precision));
+        self.program.tell(&self.fixed, to);
     }
 }

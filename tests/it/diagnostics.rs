@@ -40,14 +40,27 @@ fn each_kind_of_syntax_error_leads_to_its_mending() {
     expect_file!["diagnostics/syntax.txt"].assert_eq(&found);
 }
 
+fn as_printed() -> Option<String> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/models/as-printed.txt");
+    let text = std::fs::read_to_string(path);
+    if text.is_err() {
+        eprintln!("SKIPPED: {path} is missing");
+    }
+    text.ok()
+}
+
+/// The scripts of a folder of the package, by path, sorted.
+pub fn scripts(folder: &str) -> Vec<(String, String)> {
+    let entries = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)).unwrap();
+    let names: BTreeSet<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let paths = names.into_iter().map(|name| format!("{folder}/{name}"));
+    paths.map(|path| (path.clone(), std::fs::read_to_string(path).unwrap())).collect()
+}
+
 /// The figure as it was printed: each of its errors of syntax, and nothing else, is told at its place.
 #[test]
 fn the_figure_as_printed() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/models/as-printed.txt");
-    let Ok(text) = std::fs::read_to_string(path) else {
-        eprintln!("SKIPPED: {path} is missing");
-        return;
-    };
+    let Some(text) = as_printed() else { return };
     let mut sources = SourceMap::default();
     let id = sources.add("as-printed.txt", text);
     let parsed = parse(&sources, id, &Limits::default(), Mode::Script);
@@ -68,14 +81,9 @@ fn the_figure_as_printed() {
 /// Each program of `examples/errors` with the messages that it gets; `UPDATE_EXPECT=1` writes them anew.
 #[test]
 fn each_example_of_an_error_is_told_with_its_place() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/errors");
-    let mut names: Vec<_> =
-        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
     let mut found = String::new();
-    for name in names {
-        let path = format!("examples/errors/{name}");
-        let text = std::fs::read_to_string(&path).unwrap();
+    for (path, text) in scripts("examples/errors") {
+        let name = path.rsplit('/').next().unwrap();
         let mut session = Session::new(Arc::new(Disk), Limits::default(), Interrupt::default());
         let outcome = session.input(&path, &text, Mode::Script);
         assert!(!outcome.diagnostics.is_empty(), "{name}: nothing was said");
@@ -91,11 +99,7 @@ fn each_example_of_an_error_is_told_with_its_place() {
 /// The figure as it was printed, as a whole: one run names every one of its errors.
 #[test]
 fn the_figure_as_printed_is_explained_in_one_run() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/models/as-printed.txt");
-    let Ok(text) = std::fs::read_to_string(path) else {
-        eprintln!("SKIPPED: {path} is missing");
-        return;
-    };
+    let Some(text) = as_printed() else { return };
     let mut session = Session::new(Arc::new(Memory::default()), Limits::default(), Interrupt::default());
     let outcome = session.input("as-printed.txt", &text, Mode::Script);
     let told: Vec<_> =

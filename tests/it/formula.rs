@@ -160,7 +160,7 @@ fn what_is_told_of_names() {
                 "x1 : X by default, from -3 to 3",
                 "x2 : Y, from",
                 "a solid",
-                "route: cubes",
+                "route cubes",
                 "gob_bead: r_alpha = 0",
                 "gob_ball: r_alpha = 0.5 (beads.geo:4)",
                 "reads: gob_ball, gob_hole",
@@ -179,4 +179,9 @@ fn what_is_told_of_names() {
         }
     }
     assert!(session.explain("gob_bad").is_err());
+    // What a failed input had found of others is forgotten with it.
+    let before = session.explain("gob_box").expect("a product");
+    assert!(!session.input("beads.geo", "gob_box = gob_ball @ gob_hole; r = (;", Mode::Prompt).accepted);
+    assert!(!session.input("beads.geo", "gob_box = gob_ball @ gob_hole; a = 1/(r - 2);", Mode::Prompt).accepted);
+    assert_eq!(session.explain("gob_box").expect("a product"), before);
 }

@@ -1,7 +1,7 @@
 //! Ctrl-C: a run ends with 130 and writes nothing; the prompt goes on.
 
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use expectrl::{ControlCode, Expect};
 
@@ -26,6 +26,16 @@ const LONG: &[(&str, &str, &[&str])] = &[
         "gob_a = SUM(i = 1 TO 9000, SIN(i*x1)*SIN(i*x2)*SIN(i*x3)) - x1**2;",
         &["-o", "a.nrrd", "--resolution", "400"],
     ),
+    (
+        "searches within each other",
+        "gob_a = OFFSET_BALL(PROJECT(PROJECT(SIN(x1*x4) + SIN(x2*x5) - x3**2, x4, 0, 9), x5, 0, 9), 0.5);",
+        &["-o", "a.stl", "--resolution", "64"],
+    ),
+    (
+        "a highest value over boxes",
+        "gob_a = PROJECT(OFFSET_BALL(PROJECT(SIN(x1*x4) + SIN(x2*x5) - x3**2, x4, 0, 9), 0.5), x5, 0, 9);",
+        &["-o", "a.png"],
+    ),
     ("a loop", "n = 0; i = 0; FOR j = 1 TO 9999999 DO i = i + SIN(j); gob_a = i - x1**2;", &["-o", "a.stl"]),
 ];
 const SPACE: &str = "x1min = -4; x1max = 4; x2min = -4; x2max = 4; x3min = -4; x3max = 4;";
@@ -45,7 +55,10 @@ fn a_run_that_is_cancelled_ends_with_130_and_writes_nothing() {
             .expect("yont starts");
         std::thread::sleep(Duration::from_millis(1500));
         kill(i32::try_from(child.id()).expect("a process number"), "INT");
+        let told = Instant::now();
         let output = child.wait_with_output().expect("it ends");
+        // It takes a fifth of a second at most where nothing else runs; it would go on for minutes.
+        assert!(told.elapsed() < Duration::from_secs(10), "{what}: {:?}", told.elapsed());
         let err = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(130), "{what}: {err}");
         assert_eq!(super::cli::names(folder.path()).len(), 1, "{what}: something was written");

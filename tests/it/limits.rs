@@ -23,6 +23,13 @@ fn errors(limits: Limits, program: &str) -> Vec<String> {
     said
 }
 
+/// A session under these limits that has taken a program.
+fn defined(limits: Limits, program: &str) -> Session {
+    let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
+    assert!(session.input("limits.geo", program, Mode::Script).accepted, "{program}");
+    session
+}
+
 /// One limit: how it is set, and a program that needs a given amount of it.
 type Case = (&'static str, usize, fn(&mut Limits, usize), fn(usize) -> String);
 
@@ -229,9 +236,7 @@ fn a_sum_of_a_million_terms_works() {
 fn a_point_takes_so_many_turns_and_is_undefined_beyond() {
     let values = |point_turns| {
         let limits = Limits { point_turns, ..Limits::default() };
-        let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
-        let program = "n = 0; WHILE (n < x1) DO n = n + 1; gob_a = n;";
-        assert!(session.input("limits.geo", program, Mode::Script).accepted);
+        let mut session = defined(limits, "n = 0; WHILE (n < x1) DO n = n + 1; gob_a = n;");
         let points = [vec![30.0], vec![31.0]];
         let sampled = request::sample(&mut session, &View::default(), &points, false).expect("values");
         sampled.iter().map(|sample| sample.value).collect::<Vec<f64>>()
@@ -248,9 +253,7 @@ fn a_point_takes_so_many_turns_and_is_undefined_beyond() {
 fn a_section_is_looked_at_in_so_many_pieces() {
     let highest = |section_pieces| {
         let limits = Limits { section_pieces, ..Limits::default() };
-        let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
-        let program = "gob_a = PROJECT(EXP(-(3000*(x4 - x1))**2) + 0.1*SIN(x4), x4, -3, 3);";
-        assert!(session.input("limits.geo", program, Mode::Script).accepted);
+        let mut session = defined(limits, "gob_a = PROJECT(EXP(-(3000*(x4 - x1))**2) + 0.1*SIN(x4), x4, -3, 3);");
         request::sample(&mut session, &View::default(), &[vec![0.7]], false).expect("a value")[0].value
     };
     let peak = 1.0 + 0.1 * 0.7_f64.sin();
@@ -264,8 +267,7 @@ fn a_section_is_looked_at_in_so_many_pieces() {
 fn a_space_is_sought_with_so_much_work() {
     let code = |search_operations| {
         let limits = Limits { search_operations, ..Limits::default() };
-        let mut session = Session::new(Arc::new(Memory::default()), limits, Interrupt::default());
-        assert!(session.input("limits.geo", "gob_a = 1 - x1**2 - x2**2;", Mode::Script).accepted);
+        let mut session = defined(limits, "gob_a = 1 - x1**2 - x2**2;");
         let subject = request::subject(&mut session, &View::default(), &Timing::default()).expect("a space");
         subject.notes[0].code
     };

@@ -1,6 +1,5 @@
 //! What is asked of objects through a session: where they are, how large they are, what is wrong with them; and what the answers say.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use expect_test::expect_file;
@@ -266,14 +265,9 @@ fn plane_figures_and_intervals_are_measured() {
 /// the messages anew.
 #[test]
 fn each_kind_of_message_about_geometry() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/geometry");
-    let mut names: Vec<_> =
-        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
     let mut found = String::new();
-    for name in names {
-        let path = format!("examples/geometry/{name}");
-        let text = std::fs::read_to_string(&path).unwrap();
+    for (path, text) in super::diagnostics::scripts("examples/geometry") {
+        let name = path.rsplit('/').next().unwrap();
         let mut session = Session::new(Arc::new(Disk), Limits::default(), Interrupt::default());
         assert!(session.input(&path, &text, Mode::Script).accepted, "{name}");
         let mut options = Options::default();

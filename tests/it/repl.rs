@@ -65,6 +65,13 @@ const PIPED: &[(&str, &str, Words, Words, i32)] = &[
     ("an explanation of nothing", "gob_b = x1;\n:explain gob_c\n", &[], &["did you mean `gob_b`"], 3),
     ("no pictures off a terminal", "gob_b = x1;\n:show\n", &[], &[":set images half"], 2),
     ("pictures that are off", ":set images off\n:show\n", &[], &["pictures are off"], 2),
+    (
+        "what was kept",
+        "gob_b = 1 - x1**2; x1min = -2; x1max = 2; gob_c = gob_b - x2**2; x2min = -2; x2max = 2;\n:measure\n:measure\n:time\n",
+        &["kept from before: whole measures: 1"],
+        &[],
+        0,
+    ),
     ("how long it took", "gob_b = x1;\n:time\n:time\n", &["parse", "lower", "in all"], &[], 0),
     ("a reset", "a = 1; b = 2;\n:reset\na\n", &[], &["forgot 2 definitions", "not defined"], 3),
     ("a reset taken back", "a = 1; b = 2;\n:reset\n:undo\na + b\n", &["3\n"], &["took back: :reset"], 0),

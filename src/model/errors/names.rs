@@ -5,8 +5,8 @@ use std::sync::Arc;
 use rustc_hash::FxHashSet;
 
 use crate::builtins::{self, Builtin};
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::near::{Candidate, foreign, suggest};
+use crate::diagnostic::{Diagnostic, Label};
 use crate::field::Coordinate;
 use crate::source::Span;
 use crate::syntax::tree::{GeometricType, Name, Parameter, Statement, StatementKind};
@@ -74,9 +74,27 @@ fn near(state: &State, name: &str, (excused, read): (&FxHashSet<Name>, &FxHashSe
         nobody && !super::super::environment::is_setting(n)
     };
     let user = state.names().map(|n| Candidate { name: n, preferred: unread(n) });
+    let library = state.library().into_iter().flat_map(|library| library.names());
+    let library = library.filter(|n| state.get(n).is_none()).map(|name| Candidate { name, preferred: false });
     let failed = excused.iter().map(|n| Candidate { name: n, preferred: false });
     let known = builtins::all().map(|b| Candidate { name: b.name, preferred: false });
-    suggest(name, user.chain(failed).chain(known)).into_iter().map(str::to_owned).collect()
+    suggest(name, user.chain(failed).chain(library).chain(known)).into_iter().map(str::to_owned).collect()
+}
+
+/// Whether the place of a message is in the library, where the user has not written anything.
+pub fn is_in_library(told: &Diagnostic) -> bool {
+    let place = told.labels.iter().find(|label| label.primary).or(told.labels.first());
+    place.is_some_and(|label| label.span.source.is_on_shelf())
+}
+
+/// Moves a message from inside the library to the user's call that led there; where it arose is still shown, behind it.
+pub fn place_at_call(told: &mut Diagnostic, name: &str, call: Span) {
+    if is_in_library(told) {
+        told.labels.iter_mut().for_each(|label| label.primary = false);
+        let label = Label { span: call, text: format!("in this call of `{name}`"), primary: true };
+        told.labels.insert(0, label);
+        told.labels.truncate(3);
+    }
 }
 
 /// A name that a statement which failed would have defined. Never told: the failure was.

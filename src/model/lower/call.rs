@@ -82,7 +82,7 @@ impl Lower<'_> {
         if self.calls >= self.world.limits.call_depth {
             return Err(errors::too_many_calls(&function.name, self.world.limits.call_depth, span).into());
         }
-        let (frame, before) = (self.frame, self.locals.len());
+        let (frame, before, warned) = (self.frame, self.locals.len(), self.warnings.len());
         self.frame = before;
         self.calls += 1;
         let system = match &function.local {
@@ -104,7 +104,10 @@ impl Lower<'_> {
         self.calls -= 1;
         self.locals.truncate(before);
         self.frame = frame;
-        result.map_err(|fault| called_from(fault, span))
+        if !span.source.is_on_shelf() {
+            self.warnings[warned..].iter_mut().for_each(|told| errors::place_at_call(told, &function.name, span));
+        }
+        result.map_err(|fault| called_from(fault, &function.name, span))
     }
 
     fn run_function(&mut self, function: &Arc<Function>) -> Lowered<Value> {
@@ -154,7 +157,7 @@ impl Lower<'_> {
         if depth > CAPTURES {
             return Err(errors::too_many_calls(name, CAPTURES, statement.span).into());
         }
-        let Some(definition) = self.current.clone() else {
+        let Some(definition) = self.reader().cloned() else {
             return Err(errors::no_result(name, statement.span).into());
         };
         let local =
@@ -272,9 +275,13 @@ fn named_coordinates(arguments: &[Expr]) -> Option<Vec<(u8, Span, &Expr)>> {
     all.filter(|all| !all.is_empty())
 }
 
-/// An error inside a function shows the call that led there; long ways are cut.
-fn called_from(fault: Fault, span: Span) -> Fault {
+/// An error inside a function shows the call that led there; long ways are cut. One inside the library stands where the user called it.
+fn called_from(fault: Fault, name: &str, span: Span) -> Fault {
     match fault {
+        Fault::Told(mut told) if !span.source.is_on_shelf() && errors::is_in_library(&told) => {
+            errors::place_at_call(&mut told, name, span);
+            Fault::Told(told)
+        }
         Fault::Told(told) if told.labels.len() < 3 && told.labels.iter().all(|l| l.span != span) => {
             Fault::Told(Box::new(told.see(span, "called here")))
         }

@@ -199,7 +199,7 @@ impl<'a> Lower<'a> {
     ) {
         if self.state.kept(definition.id).is_none() {
             on_path.insert(definition.id);
-            let names = definition.reads.iter().filter_map(|(name, _)| self.state.get(name));
+            let names = definition.reads.iter().filter_map(|(name, _)| self.state.find_for(definition, name));
             let mut below: Vec<Arc<Definition>> = names.chain(definition.links()).cloned().collect();
             below.retain(|d| self.state.kept(d.id).is_none());
             below.reverse();
@@ -242,8 +242,7 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// The value of an expression of a definition, in the system of R-functions and over the names that the definition sees; nothing if
-    /// it fails, as where it stands on names of its own.
+    /// The value of an expression of a definition by itself, as the definition sees names; none if it fails.
     pub fn part(&mut self, definition: &Arc<Definition>, e: &Expr) -> Option<Value> {
         self.active = Active::InForce(definition.system.clone());
         self.current = Some(definition.clone());
@@ -336,7 +335,7 @@ impl<'a> Lower<'a> {
         if names::is_system(name) {
             return self.system_in_force(name, span);
         }
-        let Some(definition) = self.state.get(name).cloned() else { return Err(self.unknown(name, span)) };
+        let Some(definition) = self.find(name) else { return Err(self.unknown(name, span)) };
         if self.state.kept(definition.id).is_none() {
             self.ensure(&definition)?;
         }
@@ -344,6 +343,20 @@ impl<'a> Lower<'a> {
             Some(Ok(value)) => Ok(value),
             Some(Err(told)) => Err(Fault::Follows(told)),
             None => Err(errors::never_assigned(name, span, definition.statement.span).into()),
+        }
+    }
+
+    /// The definition whose formula is being evaluated: that of the innermost function that runs, else the one that is asked for.
+    fn reader(&self) -> Option<&Arc<Definition>> {
+        self.current_function.last().map(|function| &function.definition).or(self.current.as_ref())
+    }
+
+    /// What a name means where the evaluation stands. A name of the user's that failed to be defined is not the library's.
+    fn find(&self, name: &Name) -> Option<Arc<Definition>> {
+        match self.reader() {
+            Some(reader) if reader.is_library() => self.state.find_for(reader, name).cloned(),
+            _ if self.world.excused.contains(name) => self.state.get(name).cloned(),
+            _ => self.state.find(name).cloned(),
         }
     }
 

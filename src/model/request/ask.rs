@@ -34,6 +34,7 @@ type Asked<T> = Result<T, Vec<Diagnostic>>;
 /// # Errors
 /// Messages whose category decides the exit status.
 pub fn write(session: &mut Session, output: &Output, options: &Options, standard: &mut dyn Write) -> Asked<Written> {
+    session.turn();
     let subject = subject(session, &options.view, &options.timing)?;
     let subject = match &options.slices {
         Some(slices) => subject.sliced(slices).map_err(|d| vec![d])?,
@@ -52,6 +53,7 @@ pub fn write(session: &mut Session, output: &Output, options: &Options, standard
 /// # Errors
 /// Messages for the user.
 pub fn measure(session: &mut Session, view: &View) -> Asked<Measured> {
+    session.turn();
     let subject = subject(session, view, &Timing::default())?;
     subject.is_alone("a measurement").map_err(|told| vec![told])?;
     let measured = measure_subject(session, view, &subject);
@@ -141,7 +143,8 @@ pub fn sampling(session: &mut Session, view: &View, width: usize, gradient: bool
     }
     let subject = Subject::of(object.name.clone(), object.node, fixed);
     let single = view.precision == Precision::Single;
-    Sampling::new(&subject, &session.graph, (width, gradient, single), &session.limits).map_err(|told| vec![told])
+    Sampling::new(&subject, &session.graph, (width, gradient, single), (&session.limits, &session.interrupt))
+        .map_err(|told| vec![told])
 }
 
 /// The object that a view names as a subject, by itself.

@@ -46,7 +46,7 @@ impl Sampling {
         subject: &Subject,
         graph: &Graph,
         (width, gradient, single): (usize, bool, bool),
-        limits: &Limits,
+        (limits, interrupt): (&Limits, &Interrupt),
     ) -> Result<Self, Diagnostic> {
         let used: Vec<Coordinate> = graph.coordinates(subject.node).iter().collect();
         let program = Program::compile(graph, subject.node, &used, Demand::Value, limits)
@@ -58,9 +58,9 @@ impl Sampling {
             slopes: if gradient { most } else { 0 },
             columns: vec![Vec::new(); used.len()],
             used: used.into_iter().map(|c| (c, fixed(c))).collect(),
-            points: Points::new(),
-            singles: single.then(Points::new),
-            gradients: Gradients::new(),
+            points: Points::heeding(interrupt),
+            singles: single.then(|| Points::heeding(interrupt)),
+            gradients: Gradients::heeding(interrupt),
         })
     }
 
@@ -74,6 +74,7 @@ impl Sampling {
             interrupt.tick()?;
             self.batch(batch, &mut all);
         }
+        interrupt.tick()?;
         Ok(all)
     }
 

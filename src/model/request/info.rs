@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::diagnostic::Diagnostic;
 use crate::field::Coordinates;
 use crate::model::environment::{Axis, Object, Role};
+use crate::model::route::Told;
 use crate::model::session::Session;
 
 use super::space::plain;
@@ -23,6 +24,8 @@ pub struct Info {
     /// Why it cannot be shown as it is.
     told: Vec<Diagnostic>,
     products: Vec<[Coordinates; 2]>,
+    /// The way to its boundary, where it has two or three axes of space.
+    route: Option<Told>,
 }
 
 /// What there is to know of each object of a session, or of the one that is named.
@@ -56,7 +59,18 @@ fn of(session: &mut Session, name: &str) -> Result<Info, Vec<Diagnostic>> {
         Err(errors) if errors.iter().any(|e| e.code == "cancelled") => return Err(errors),
         Err(errors) => told = errors,
     }
-    Ok(Info { object, operations, found, told, products })
+    let route = match object.space().len() {
+        2 | 3 => match session.route_of(&object) {
+            Ok(route) => Some(route),
+            Err(errors) if errors.iter().any(|e| e.code == "cancelled") => return Err(errors),
+            Err(mut errors) => {
+                told.append(&mut errors);
+                None
+            }
+        },
+        _ => None,
+    };
+    Ok(Info { object, operations, found, told, products, route })
 }
 
 impl Info {
@@ -81,17 +95,33 @@ impl Info {
         json!({
             "name": &*object.name, "doc": object.doc.trim(), "coordinates": names(object.uses), "types": types,
             "bounds": bounds, "found": found, "route": route, "reason": reason, "operations": self.operations,
-            "products": products, "errors": told,
+            "products": products, "errors": told, "centre": self.centre(), "equations": self.equations(),
+            "broken_by": self.route.as_ref().and_then(|told| told.part.clone()),
         })
     }
 
+    /// The centre of its rays, if it is a star.
+    fn centre(&self) -> Option<&[f64]> {
+        let star = self.route.as_ref()?.found.as_ref().ok()?;
+        Some(&star.gauge.centre)
+    }
+
+    /// The ray forms and the boundary of a star; of what is none its ray form, if it has one.
+    fn equations(&self) -> Vec<String> {
+        match self.route.as_ref().map(|told| &told.found) {
+            Some(Ok(star)) => star.equations.clone(),
+            Some(Err(refusal)) => refusal.form.iter().map(|form| format!("f(c + t v) = {form}")).collect(),
+            None => Vec::new(),
+        }
+    }
+
     /// How its boundary is found, and why so.
-    fn route(&self) -> (&'static str, &'static str) {
-        match self.object.space().len() {
-            3 => ("cubes", "three axes of space: boxes by intervals, then marching cubes"),
-            2 => ("squares", "two axes of space: boxes by intervals, then marching squares"),
-            1 => ("graph", "one axis of space: a graph, and intervals"),
-            _ => ("none", "no axis of space"),
+    fn route(&self) -> (&'static str, String) {
+        match (&self.route, self.object.space().len()) {
+            (Some(told), _) => (told.name(), told.reason()),
+            (None, 1) => ("graph", "one axis of space: a graph, and intervals".into()),
+            (None, 0) => ("none", "no axis of space".into()),
+            (None, _) => ("none", "its centre makes no sense".into()),
         }
     }
 
@@ -141,8 +171,13 @@ impl fmt::Display for Info {
                 common => write!(f, "; both have {}, where it is `&`", names(common))?,
             }
         }
-        let (route, reason) = self.route();
-        write!(f, "\n  route {route}: {reason}")?;
+        match &self.route {
+            Some(told) => told.lines().iter().try_for_each(|line| write!(f, "\n  {line}"))?,
+            None => {
+                let (route, reason) = self.route();
+                write!(f, "\n  route {route}: {reason}")?;
+            }
+        }
         self.told.iter().try_for_each(|told| write!(f, "\n  not as it is: {}", told.title))
     }
 }

@@ -21,6 +21,7 @@ const SMALLEST: usize = 8;
 /// # Errors
 /// Messages for the user: those of a `.png`.
 pub fn preview(session: &mut Session, options: &Options, within: [usize; 2]) -> Result<Image, Vec<Diagnostic>> {
+    session.turn();
     let subject = together::subject(session, &options.view, &options.timing)?;
     let seen = view(&options.picture).map_err(|told| vec![told])?;
     let subject = subject.cut(&options.cuts, &seen).map_err(|told| vec![told])?;

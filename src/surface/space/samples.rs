@@ -68,6 +68,7 @@ impl Search<'_> {
         let mut values = vec![0.0; count];
         let program = Arc::clone(&self.program);
         self.points.eval(&program, &slices, &mut values);
+        self.interrupt.tick()?;
         self.spent += count as u64 * program.len() as u64;
         for (i, &value) in values.iter().enumerate() {
             if value >= 0.0 || self.best.as_ref().is_none_or(|(best, _)| value > *best) {

@@ -118,8 +118,8 @@ impl<'a> Search<'a> {
             spent: 0,
             work,
             count: 0,
-            boxes: Boxes::new(),
-            points: Points::new(),
+            boxes: Boxes::heeding(interrupt),
+            points: Points::heeding(interrupt),
             interrupt,
         }
     }

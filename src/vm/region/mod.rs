@@ -4,14 +4,18 @@
 mod repeat;
 mod search;
 
+use std::hash::Hash;
+
 use super::compile::CompileError;
 use super::kernels::{Kind, Store};
 use super::program::{Demand, Program, Value};
 use crate::field::{Bound, Coordinate, Form, NodeId, Region};
+use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::number::Interval;
 use crate::number::extremum::ball::Plan;
 use crate::number::turns::Turns;
+use crate::reuse::Digest;
 use search::Probe;
 
 /// What loops and searches have cost.
@@ -68,6 +72,7 @@ impl Body {
 #[derive(Debug)]
 pub(crate) struct RegionProgram {
     work: Work,
+    fingerprint: u128,
 }
 
 #[derive(Debug)]
@@ -113,7 +118,14 @@ impl RegionProgram {
                 sign,
             },
         };
-        Ok(Self { work })
+        let mut digest = Digest::of("region program");
+        (region.fingerprint(), sign, limits.point_turns, limits.section_pieces).hash(&mut digest);
+        Ok(Self { work, fingerprint: digest.key().bits() })
+    }
+
+    /// A hash of all that its values depend on.
+    pub(crate) fn fingerprint(&self) -> u128 {
+        self.fingerprint
     }
 
     /// Whether it searches for a highest value, or a part of it does.
@@ -176,12 +188,12 @@ pub(crate) struct RegionStore<K: Kind> {
 }
 
 impl<K: Kind> RegionStore<K> {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn heeding(interrupt: &Interrupt) -> Self {
         Self {
             given: Vec::new(),
             outputs: Vec::new(),
             held: Vec::new(),
-            inner: Store::new(),
+            inner: Store::heeding(interrupt),
             watch: K::Watch::default(),
             places: Vec::new(),
             going: Vec::new(),

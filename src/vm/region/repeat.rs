@@ -32,8 +32,9 @@ pub(super) fn points<K: Pointwise>(
                 K::set(&mut store.outputs[state], store.places[i], value);
             }
         }
-        if turn == limit {
-            endless = store.going.len() as u64;
+        let cancelled = store.inner.interrupt.is_cancelled();
+        if turn == limit || (cancelled && !store.going.is_empty()) {
+            endless = if cancelled { 0 } else { store.going.len() as u64 };
             for &i in &store.going {
                 for state in 0..states {
                     K::set(&mut store.outputs[state], store.places[i], K::constant(f64::NAN));
@@ -104,6 +105,7 @@ pub(super) fn ranges(
     for turn in 0.. {
         store.run(&body.program, active);
         store.going.clear();
+        let cancelled = store.inner.interrupt.is_cancelled();
         let value = |i: usize, root: u32| Ranges::get(store.inner.of(&body.program, root), i);
         for i in 0..active {
             let turns = &mut store.turns[store.places[i]];
@@ -111,7 +113,7 @@ pub(super) fn ranges(
             if !turns.goes_on(value(i, body.roots[0]), parts, |state| value(i, state as u32)) {
                 continue;
             }
-            if turn == limit {
+            if turn == limit || cancelled {
                 turns.give_up();
                 continue;
             }

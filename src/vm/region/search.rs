@@ -6,12 +6,16 @@ use super::super::gradient::Duals;
 use super::super::interval::Ranges;
 use super::super::kernels::{Kind, Store};
 use super::{Body, Pointwise, RegionStore, copy, room};
+use crate::interrupt::Interrupt;
 use crate::number::extremum::ball::{self, Ball, GRADIENT, Plan};
 use crate::number::extremum::section::{self, Section};
 use crate::number::{Binary, Dual, Interval};
 
 /// How near to its boundary, in parts of the radius, a place in a ball counts as on it.
 const RIM: f64 = 1.0 - 1e-9;
+
+/// What is said of a box once the search is to stop.
+const UNKNOWN: Interval = Interval { undefined: true, ..Interval::WHOLE };
 
 /// Evaluators for the questions of a search.
 pub(crate) struct Probe {
@@ -22,8 +26,14 @@ pub(crate) struct Probe {
 }
 
 impl Probe {
-    fn new() -> Box<Self> {
-        Box::new(Self { doubles: Store::new(), duals: Store::new(), ranges: Store::new(), choices: Choices::default() })
+    fn heeding(interrupt: &Interrupt) -> Box<Self> {
+        let (doubles, duals) = (Store::heeding(interrupt), Store::heeding(interrupt));
+        Box::new(Self { doubles, duals, ranges: Store::heeding(interrupt), choices: Choices::default() })
+    }
+
+    /// Whether the answers mean nothing any more.
+    fn is_cancelled(&self) -> bool {
+        self.doubles.interrupt.is_cancelled()
     }
 
     fn run_ranges(&mut self, body: &Body, lanes: usize) {
@@ -113,10 +123,14 @@ pub(super) fn sections<K: Pointwise>(
     lanes: usize,
 ) {
     room::<K>(&mut store.outputs, 2);
-    let probe = store.probe.get_or_insert_with(Probe::new);
+    let probe = store.probe.get_or_insert_with(|| Probe::heeding(&store.inner.interrupt));
     probe.duals.reserve(&body.program);
     probe.ranges.reserve(&both.program);
     for lane in 0..lanes {
+        if probe.is_cancelled() {
+            K::set(&mut store.outputs[1], lane, K::constant(f64::NAN));
+            continue;
+        }
         for input in 1..both.program.inputs().len() {
             let value = K::number(K::get(&store.given[input + 1], lane));
             probe.fix_range(input, Interval::point(value));
@@ -161,9 +175,13 @@ fn finish<K: Pointwise>(body: &Body, store: &mut RegionStore<K>, lanes: usize) {
 /// Bounds the highest value of a section over the boxes of the first lanes.
 pub(super) fn section_ranges(both: &Body, continuous: bool, store: &mut RegionStore<Ranges>, lanes: usize) {
     room::<Ranges>(&mut store.outputs, 2);
-    let probe = store.probe.get_or_insert_with(Probe::new);
+    let probe = store.probe.get_or_insert_with(|| Probe::heeding(&store.inner.interrupt));
     probe.ranges.reserve(&both.program);
     for lane in 0..lanes {
+        if probe.is_cancelled() {
+            store.outputs.iter_mut().for_each(|output| Ranges::set(output, lane, UNKNOWN));
+            continue;
+        }
         for input in 1..both.program.inputs().len() {
             probe.fix_range(input, Ranges::get(&store.given[input + 1], lane));
         }
@@ -230,13 +248,19 @@ pub(super) fn balls<K: Pointwise>(
 ) {
     room::<K>(&mut store.outputs, dimension + 1);
     store.inner.reserve(&body.program);
-    let probe = store.probe.get_or_insert_with(Probe::new);
+    let probe = store.probe.get_or_insert_with(|| Probe::heeding(&store.inner.interrupt));
     probe.doubles.reserve(&body.program);
     probe.duals.reserve(&body.program);
     probe.ranges.reserve(&body.program);
     // With derivatives the place itself is asked for.
     let sign = sign && K::STEADY;
     for lane in 0..lanes {
+        if probe.is_cancelled() {
+            let nowhere = K::constant(f64::NAN);
+            store.outputs.iter_mut().for_each(|output| K::set(output, lane, nowhere));
+            (0..dimension).for_each(|axis| K::set(store.inner.input(axis), lane, nowhere));
+            continue;
+        }
         let number = |input: usize| K::number(K::get(&store.given[input], lane));
         for input in dimension..body.program.inputs().len() {
             let value = number(input + 1);
@@ -268,9 +292,13 @@ pub(super) fn balls<K: Pointwise>(
 /// Bounds the highest value in a ball over the boxes of the first lanes.
 pub(super) fn ball_ranges(body: &Body, dimension: usize, plan: &Plan, store: &mut RegionStore<Ranges>, lanes: usize) {
     room::<Ranges>(&mut store.outputs, dimension + 1);
-    let probe = store.probe.get_or_insert_with(Probe::new);
+    let probe = store.probe.get_or_insert_with(|| Probe::heeding(&store.inner.interrupt));
     probe.ranges.reserve(&body.program);
     for lane in 0..lanes {
+        if probe.is_cancelled() {
+            store.outputs.iter_mut().for_each(|output| Ranges::set(output, lane, UNKNOWN));
+            continue;
+        }
         for input in dimension..body.program.inputs().len() {
             probe.fix_range(input, Ranges::get(&store.given[input + 1], lane));
         }

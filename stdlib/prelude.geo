@@ -1,0 +1,19 @@
+// The prelude: every session begins as if it had included these files. A file that is added stands here and in the program's list.
+INCLUDE "shapes/basics.geo";
+INCLUDE "shapes/solids.geo";
+INCLUDE "shapes/polyhedra.geo";
+INCLUDE "shapes/figures.geo";
+INCLUDE "shapes/lattices.geo";
+INCLUDE "shapes/surfaces.geo";
+INCLUDE "fields/skeletons.geo";
+INCLUDE "fields/noise.geo";
+INCLUDE "operations/sets.geo";
+INCLUDE "operations/blends.geo";
+INCLUDE "operations/offsets.geo";
+INCLUDE "operations/mappings.geo";
+INCLUDE "operations/deformations.geo";
+INCLUDE "operations/patterns.geo";
+INCLUDE "operations/products.geo";
+INCLUDE "operations/time.geo";
+INCLUDE "operations/textures.geo";
+INCLUDE "relations/relations.geo";
