@@ -389,8 +389,11 @@ impl Visitor for Signs<'_> {
 
     fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) {
         let [mut xs, mut ys] = std::mem::take(&mut self.columns);
-        xs.clear();
-        ys.clear();
+        let count = block.points() as usize;
+        for coordinates in [&mut xs, &mut ys] {
+            coordinates.clear();
+            coordinates.reserve(count);
+        }
         let columns = &self.places.columns[block.from[0]..block.to[0]];
         for &y in &self.places.rows[block.from[1]..block.to[1]] {
             xs.extend_from_slice(columns);

@@ -414,12 +414,12 @@ fn a_long_text_is_read_as_its_statements_are() {
         for diagnostic in &alone.diagnostics {
             let same = told.next().expect("as many messages");
             assert_eq!((same.code, &same.title), (diagnostic.code, &diagnostic.title));
-            let places = |d: &yont::diagnostic::Diagnostic, base: usize| -> Vec<usize> {
+            let places = |d: &yont::diagnostic::Diagnostic, base: u32| -> Vec<u32> {
                 d.labels.iter().map(|label| label.span.start - base).collect()
             };
             assert_eq!(places(same, start), places(diagnostic, 0), "{line}");
         }
-        start += line.len();
+        start += line.len() as u32;
     }
     assert!(told.next().is_none());
 }

@@ -520,20 +520,25 @@ fn many_balls_are_hit_where_the_nearest_of_them_is() {
         let mut met = 0;
         for (n, hit) in one.iter().enumerate() {
             let (start, d) = ray(&camera, rays, n);
-            // Where the ray enters each ball that it does not merely graze.
+            // Where the ray enters each ball, and how long it stays in it.
             let enter = |&(at, r): &([f64; 3], f64)| {
                 let o: [f64; 3] = std::array::from_fn(|k| start[k] - at[k]);
                 let (a, b, c) = (dot(d, d), dot(o, d), dot(o, o) - r * r);
-                let root = b * b - a * c;
-                (root > 1e-7).then(|| (-b - root.sqrt()) / a)
+                let root = (b * b - a * c).sqrt();
+                (root > 0.0).then(|| ((-b - root) / a, 2.0 * root / a))
             };
-            let Some(first) = balls.iter().filter_map(enter).min_by(f64::total_cmp) else { continue };
+            let entered: Vec<(f64, f64)> = balls.iter().filter_map(enter).collect();
+            let least = |of: &dyn Fn(f64) -> bool| {
+                let depths = entered.iter().filter(|(_, stay)| of(*stay)).map(|(depth, _)| *depth);
+                depths.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
+            };
             let depth = hit.map_or(f64::INFINITY, |hit| hit.depth);
-            // A ball that is grazed before it may be met or not.
-            assert!(depth <= first + 1e-6, "{name} {n}: {depth} for {first}");
+            // What is left before a smallest box ends may be stepped over, beside other balls.
+            let (first, sure) = (least(&|_| true), least(&|stay| stay > 0.15));
+            assert!(first - 1e-6 <= depth && depth <= sure + 1e-6, "{name} {n}: {depth} for {first} to {sure}");
             met += usize::from((depth - first).abs() < 1e-6);
         }
         let hits = one.iter().flatten().count();
-        assert!(hits > rays[0] * rays[1] / 4 && met * 1000 > hits * 995, "{name}: {met} of {hits}");
+        assert!(hits > rays[0] * rays[1] / 8 && met * 1000 > hits * 995, "{name}: {met} of {hits}");
     }
 }
