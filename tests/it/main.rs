@@ -36,6 +36,7 @@ mod regions;
 mod repl;
 mod scenes;
 mod session;
+mod sharp;
 mod slips;
 mod solids;
 mod star;
