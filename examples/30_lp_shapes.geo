@@ -10,7 +10,8 @@
   Expected: from above: four strips that meet in a convex polygon (Fig. 2b), a polygon without parallel sides from strips
             whose other sides are hidden (2c; nothing is left of it for p <= 1), the union of two strips (3), two circles
             (5) and a ring cut by a strip (7), an asymptotic triangle (8), an indented quadrilateral (9); prints
-            `squares without overflow: 1`; the triangle has nearly the area 3*SQRT(3)*0.6^2, volume = 1.8706 }
+            `squares without overflow: 1`; nearly sharp the triangle is one of the
+            inner radius 0.6, so the area = 1.8706 }
 
 exponents = [0.75, 1, 2, 10, 1000];
 p = exponents[x3];

@@ -9,7 +9,7 @@
             yont measure examples/34_star_shapes.geo --at x3=5,x4=3
   Expected: from above: five star curves; two convex shapes, their union and two smooth approximations; the square by
             p = 1, 2, 4, 8, infinity; a control shape of three triangles by its global, and by its local parameter; a
-            triangle that turns into a square; the last square has the area of its control shape, volume = 2.56 }
+            triangle that turns into a square; the last square is its control shape, so the area = 2.56 }
 
 p = [1, 2, 4, 8, INFINITY];
 

@@ -23,7 +23,7 @@ fn_lp_or((array) H, p) = PNORM(H, -p);
 
 { The intersection of the values in the array H, each with an exponent of its own, sum |H[i]|^p[i], as the power 1/q of that sum, q
   the largest magnitude of an exponent; inside it is the same set. A negative exponent takes the outside of its value.
-  Example: fn_lp_each([0.5, 2], [2, 4])**4   // 16.25
+  Example: fn_lp_each([16, 3], [1, 2])   // 5
   Source: [H90] (2) }
 fn_lp_each((array) H, (array) p) = PNORM(ARRAY(i = 1 TO LEN(H), ABS(H[i])**(p[i]/q)), q) WHERE q = MAXIMUM(i = 1 TO LEN(p), ABS(p[i]));
 
@@ -50,6 +50,6 @@ fn_face19((array) n, c, (array) a, eps) = (SUM(i = 1 TO LEN(n), u[i]**2) + eps**
   WHERE u = ARRAY(i = 1 TO LEN(n), ([x1, x2, x3, x4, x5, x6, x7, x8][i] - a[i])/(2*c));
 
 { The ring |x1^2 + x2^2 - r^2| <= R: from the radius SQRT(r^2 - R) to SQRT(r^2 + R).
-  Example: fn_ring(2, 1) AT (SQRT(5), 0)   // 1
+  Example: fn_ring(2, 1) AT (1, 0)   // 3
   Source: [H90] Fig. 7 }
 fn_ring(r, R) = ABS(x1**2 + x2**2 - r**2)/R;

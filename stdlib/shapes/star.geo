@@ -2,7 +2,7 @@
 
 { The union of two star solids of one centre, blended by p > 0: 1 - (F1^-p + F2^-p)^(-1/p) with F = 1 - g. Where g > 1 a solid is
   not of this kind, and the result is undefined.
-  Example: tr_ricci_union(1 - ABS(x1), 1 - ABS(x2), 1) AT (6, 12)   // -3
+  Example: tr_ricci_union(1 - ABS(x1), 1 - ABS(x2), 1) AT (4, 4)   // -1
   Source: [A96] 3 }
 tr_ricci_union(g1, g2, p) = 1 - PNORM(SQRT(1 - g1)**2, SQRT(1 - g2)**2, -p);
 
@@ -13,7 +13,7 @@ tr_ricci_union(g1, g2, p) = 1 - PNORM(SQRT(1 - g1)**2, SQRT(1 - g2)**2, -p);
 tr_ricci_intersection(g1, g2, p) = 1 - PNORM(SQRT(1 - g1)**2, SQRT(1 - g2)**2, p);
 
 { From the star solid g2 (m = 0) to g1 (m = 1): 1 - F1^m F2^(1-m) with F = 1 - g.
-  Example: tr_morph_star(1 - ABS(x1), 1 - ABS(x2), 0.5) AT (2, 8)   // -3
+  Example: tr_morph_star(1 - ABS(x1), 1 - ABS(x2), 0.5) AT (4, 16)   // -7
   Source: [A92] 7.4 }
 tr_morph_star(g1, g2, m) = 1 - (1 - g1)**m*(1 - g2)**(1 - m);
 
