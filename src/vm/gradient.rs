@@ -58,6 +58,19 @@ impl Kind for Duals {
     fn unary(op: Unary, a: Self::Item) -> Self::Item {
         op.dual(a)
     }
+    /// Values, then what each slope is multiplied by, then each slope: loops that become vector code each by itself.
+    #[inline(always)]
+    fn unary_block(op: Unary, a: &DualBlock, out: &mut DualBlock, lanes: usize) {
+        let lanes = lanes.min(LANES);
+        let mut by = [0.0; LANES];
+        op.map(&a.value[..lanes], &mut out.value[..lanes]);
+        op.slopes_map(&a.value[..lanes], &out.value[..lanes], &mut by[..lanes]);
+        for (out, slope) in out.slope.iter_mut().zip(&a.slope) {
+            for ((out, &slope), &by) in out[..lanes].iter_mut().zip(slope).zip(&by) {
+                *out = crate::number::dual::times(by, slope);
+            }
+        }
+    }
     #[inline(always)]
     fn binary(op: Binary, a: Self::Item, b: Self::Item) -> Self::Item {
         op.dual(a, b)
