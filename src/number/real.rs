@@ -5,6 +5,7 @@
 use super::Algebra;
 use super::float::{self, Float};
 use super::functions;
+use super::norm;
 use super::op::{Binary, Ternary, Unary};
 use super::rfunction;
 
@@ -139,6 +140,7 @@ impl Ternary {
             Self::Intersection => rfunction::intersection(a, b, c),
             Self::UnionSmooth => rfunction::union_smooth(a, b, c),
             Self::IntersectionSmooth => rfunction::intersection_smooth(a, b, c),
+            Self::Norm => norm::norm(a, b, c),
         }
     }
 

@@ -146,6 +146,12 @@ impl Sampler {
         }
     }
 
+    /// Coordinates of the space.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
     /// How well coordinates are told apart, relative to their size.
     #[must_use]
     pub fn epsilon(&self) -> f64 {

@@ -338,7 +338,7 @@ fn with_left<K: Kind>(op: Binary, number: f64, b: &K::Block, out: &mut K::Block,
 fn ternary<K: Kind>(op: Ternary, [a, b, c]: [&K::Block; 3], out: &mut K::Block, lanes: usize) {
     apart!(
         op,
-        Ternary [Select Union Intersection UnionSmooth IntersectionSmooth];
+        Ternary [Select Union Intersection UnionSmooth IntersectionSmooth Norm];
         out, lanes, i => K::ternary(THE, K::get(a, i), K::get(b, i), K::get(c, i))
     );
 }
@@ -348,7 +348,7 @@ fn join<K: Kind>(op: Ternary, a: &K::Block, b: &K::Block, number: f64, out: &mut
     let c = K::constant(number);
     apart!(
         op,
-        Ternary [Union Intersection UnionSmooth IntersectionSmooth],
+        Ternary [Union Intersection UnionSmooth IntersectionSmooth Norm],
         Ternary::Select => debug_assert!(false, "a condition has no parameter");
         out, lanes, i => K::ternary(THE, K::get(a, i), K::get(b, i), c)
     );
