@@ -14,13 +14,14 @@ use fidget::vm::VmFunction;
 use rayon::prelude::*;
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
-use yont::picture::plot::{Fill, Window, plot};
+use yont::picture::plot::{Fill, Window, inside, plot};
 use yont::surface::{Grid, check, extract};
 use yont::vm::block::Scalar;
 use yont::vm::{Demand, Points, Program, Shape};
 
 use crate::ours::{GYROID, Object, program, spheres};
 use crate::peer::Expression;
+use crate::pictures;
 use crate::table::{Runner, compare};
 
 /// Name and work.
@@ -29,6 +30,12 @@ pub const WORKS: &[(&str, fn())] = &[
     ("prospero-4096", || prospero(4096)),
     ("spheres-root-section", || section("10,000 spheres, `|`, section 1024", 0, 1024)),
     ("spheres-max-section", || section("10,000 spheres, max, section 1024", 1, 1024)),
+    ("spheres-root-heights", || pictures::heights("10,000 spheres, `|`, height map 256", 0)),
+    ("spheres-max-heights", || pictures::heights("10,000 spheres, max, height map 256", 1)),
+    ("gyroid-picture", pictures::gyroid),
+    ("load", pictures::load),
+    ("sizes-prospero", pictures::sizes_prospero),
+    ("sizes-spheres", pictures::sizes_spheres),
     ("gyroid-128", || mesh("gyroid ball, mesh 128", &Object::of(GYROID), 1.0, 7)),
     ("gyroid-256", || mesh("gyroid ball, mesh 256", &Object::of(GYROID), 1.0, 8)),
     ("bear", || model_mesh("bear", 1.0)),
@@ -42,14 +49,14 @@ pub const WORKS: &[(&str, fn())] = &[
     }),
 ];
 
-const BUDGET: Duration = Duration::from_secs(3);
+pub const BUDGET: Duration = Duration::from_secs(3);
 
 /// Uses a result, so that nobody leaves the work out.
-fn keep<T>(result: T) {
+pub fn keep<T>(result: T) {
     drop(black_box(result));
 }
 
-fn list(name: &str) -> Option<String> {
+pub fn list(name: &str) -> Option<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../../shared/data/models/{name}.vm"));
     let text = std::fs::read_to_string(&path).ok();
     if text.is_none() {
@@ -75,6 +82,7 @@ fn picture(name: &str, object: &Object, peer: &Expression, side: usize) {
     let window = Window { lo: [-1.0; 2], hi: [1.0; 2] };
     let paint =
         |shape: &Shape| plot(shape, window, [side; 2], Fill::Mono, &Interrupt::default()).expect("no one stops it");
+    let mask = |shape: &Shape| inside(shape, window, [side; 2], &Interrupt::default());
     // Fidget looks at the corners of pixels, Yont at their middles.
     let half = nalgebra::Vector2::repeat(1.0 / side as f32);
     let config = pixel::RenderConfig {
@@ -91,6 +99,7 @@ fn picture(name: &str, object: &Object, peer: &Expression, side: usize) {
         name,
         &mut [
             Runner::new("Yont, double", || object.shape(2, Demand::Sign), |s| keep(paint(s))),
+            Runner::new("Yont, double, a byte a pixel", || object.shape(2, Demand::Sign), |s| keep(mask(s))),
             Runner::new("Fidget, VM, single", || bound::<VmFunction>(peer), |b| keep(config.run(b.clone()))),
             Runner::new("Fidget, JIT, single", || bound::<JitFunction>(peer), |b| keep(config.run(b.clone()))),
         ],
@@ -99,7 +108,7 @@ fn picture(name: &str, object: &Object, peer: &Expression, side: usize) {
     );
 }
 
-fn bound<F: MathFunction + Clone>(peer: &Expression) -> BoundShape<'static, F, f32> {
+pub fn bound<F: MathFunction + Clone>(peer: &Expression) -> BoundShape<'static, F, f32> {
     Form::<F>::new(&peer.context, peer.root).expect("a shape").try_into().ok().expect("no variables")
 }
 
