@@ -168,6 +168,21 @@ fn dense_ours<T: Scalar + Into<f64>>(program: &Program, piece: usize, number: im
     Lattice { side: 256, piece }.sum(&number, Points::<T>::new, &values)
 }
 
+/// The same slab by slab as a lattice, the form in which a grid of points is given to the evaluator.
+fn dense_lattice<T: Scalar + Into<f64>>(program: &Program, number: impl Fn(f64) -> T + Sync) -> f64 {
+    let side = 256;
+    let axis: Vec<T> = (0..side).map(|k| number((k as f64 + 0.5) / side as f64 * 2.0 - 1.0)).collect();
+    let make = || (Points::<T>::new(), vec![number(0.0); side * side]);
+    let slabs: Vec<f64> = axis
+        .par_chunks(1)
+        .map_init(make, |(points, out), z| {
+            points.lattice(program, &[&axis, &axis, z], out);
+            out.iter().map(|v| (*v).into()).sum()
+        })
+        .collect();
+    slabs.iter().sum()
+}
+
 fn dense_peer<F: MathFunction + Function>(form: &Form<F>, piece: usize) -> f64
 where
     <F::FloatSliceEval as BulkEvaluator>::Tape: Sync,
@@ -185,12 +200,16 @@ fn dense(name: &str, object: &Object) {
     let form = |e: &Expression| Form::<JitFunction>::new(&e.context, e.root).expect("a shape");
     let interpreted = |e: &Expression| Form::<VmFunction>::new(&e.context, e.root).expect("a shape");
     let sums = [dense_ours(&program(), 4096, |v| v as f32), dense_ours(&program(), 4096, |v| v)];
+    let lattice = [dense_lattice(&program(), |v| v as f32), dense_lattice(&program(), |v| v)];
+    assert!((sums[1] - lattice[1]).abs() <= 1e-9 * sums[1].abs(), "a lattice gives the values of its points");
     let theirs = -dense_peer(&form(&peer), 4096);
-    println!("<!-- {name}: sums {sums:?} and {theirs} -->");
+    println!("<!-- {name}: sums {sums:?}, {lattice:?} and {theirs} -->");
     assert!((sums[1] - theirs).abs() <= 1e-3 * theirs.abs(), "the values agree");
     let mut runners = vec![
-        Runner::new("Yont, single", program, |p| keep(dense_ours(p, 4096, |v| v as f32))),
-        Runner::new("Yont, double", program, |p| keep(dense_ours(p, 4096, |v| v))),
+        Runner::new("Yont, single", program, |p| keep(dense_lattice(p, |v| v as f32))),
+        Runner::new("Yont, double", program, |p| keep(dense_lattice(p, |v| v))),
+        Runner::new("Yont, single, points in any order", program, |p| keep(dense_ours(p, 4096, |v| v as f32))),
+        Runner::new("Yont, double, points in any order", program, |p| keep(dense_ours(p, 4096, |v| v))),
     ];
     for piece in [256, 1024, 4096, 16384] {
         let name = |who: &str| format!("Fidget, {who}, single, {piece} at once");
