@@ -31,6 +31,7 @@ pub fn view(making: &Making, default: &View) -> View {
             .collect(),
         cells,
         precision: making.fineness.precision.into(),
+        sharp: making.fineness.sharp.map_or(default.sharp, Switch::is_on),
     }
 }
 

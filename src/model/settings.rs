@@ -50,6 +50,12 @@ pub const SETTINGS: &[Setting] = &[
         }),
     },
     Setting {
+        name: "sharp",
+        form: "1",
+        doc: "1 or 0: whether meshes have creases and corners as they are, not beveled",
+        takes: Takes::Number(|v, o| switch(v, &mut o.view.sharp)),
+    },
+    Setting {
         name: "size",
         form: "[640, 480]",
         doc: "width and height of a picture in pixels",

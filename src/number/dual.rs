@@ -6,6 +6,7 @@
 use super::Algebra;
 use super::float;
 use super::functions;
+use super::norm;
 use super::op::{Binary, Ternary, Unary};
 use super::real::is_true;
 use super::rfunction;
@@ -104,6 +105,20 @@ impl Unary {
         }
     }
 
+    /// [`Unary::slope`] for every number of a block, by their values; the same bits. With a constant `self` it is vector code.
+    #[inline(always)]
+    pub fn slopes_map(self, a: &[f64], values: &[f64], out: &mut [f64]) {
+        match self {
+            // Rare angles are looked for by the block, not by the number.
+            Self::Sin => Self::Cos.map(a, out),
+            Self::Cos => {
+                Self::Sin.map(a, out);
+                out.iter_mut().for_each(|slope| *slope = -*slope);
+            }
+            _ => a.iter().zip(values).zip(out).for_each(|((&a, &value), out)| *out = self.slope(a, value)),
+        }
+    }
+
     /// The operation with derivatives.
     #[inline(always)]
     #[must_use]
@@ -182,6 +197,12 @@ impl Ternary {
             Self::UnionSmooth => smooth(a, b, c),
             Self::Intersection => intersection(a, b, c, union),
             Self::IntersectionSmooth => intersection(a, b, c, smooth),
+            Self::Norm => {
+                let value = self.real(a.value, b.value, c.value);
+                let by = norm::norm_slopes(a.value, b.value, c.value, value);
+                let sides = a.chain2(b, value, (by.0, by.1));
+                sides.chain2(c, value, (1.0, by.2))
+            }
         }
     }
 }

@@ -6,9 +6,11 @@ pub mod float;
 pub mod functions;
 pub mod interval;
 pub mod leaf;
+pub mod norm;
 pub mod op;
 pub mod real;
 pub mod rfunction;
+pub mod star;
 pub mod turns;
 
 pub use dual::{Dual, Duals};

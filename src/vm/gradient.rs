@@ -1,7 +1,7 @@
 //! Values with their exact derivatives by up to three inputs at a time, forward, a block of points at a time. The values are those of
 //! [`super::Points`] to the bit.
 
-use super::kernels::{Kind, Store, duals};
+use super::kernels::{Code, Kind, Store, duals};
 use super::program::Program;
 use super::region::{Counts, Pointwise, RegionProgram, RegionStore};
 use crate::interrupt::Interrupt;
@@ -35,8 +35,8 @@ impl Kind for Duals {
     type Watch = ();
     const LANES: usize = LANES;
 
-    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
-        duals(program, store, lanes, watch);
+    fn run_code(code: Code<'_>, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
+        duals(code, store, lanes, watch);
     }
 
     #[inline(always)]
@@ -57,6 +57,26 @@ impl Kind for Duals {
     #[inline(always)]
     fn unary(op: Unary, a: Self::Item) -> Self::Item {
         op.dual(a)
+    }
+    /// For angles: values, then what each slope is multiplied by, then each slope, since rare ones are looked for by the block. The
+    /// others are better done in one loop.
+    #[inline(always)]
+    fn unary_block(op: Unary, a: &DualBlock, out: &mut DualBlock, lanes: usize) {
+        let lanes = lanes.min(LANES);
+        if !matches!(op, Unary::Sin | Unary::Cos | Unary::Tan) {
+            for i in 0..lanes {
+                Self::set(out, i, op.dual(Self::get(a, i)));
+            }
+            return;
+        }
+        let mut by = [0.0; LANES];
+        op.map(&a.value[..lanes], &mut out.value[..lanes]);
+        op.slopes_map(&a.value[..lanes], &out.value[..lanes], &mut by[..lanes]);
+        for (out, slope) in out.slope.iter_mut().zip(&a.slope) {
+            for ((out, &slope), &by) in out[..lanes].iter_mut().zip(slope).zip(&by) {
+                *out = crate::number::dual::times(by, slope);
+            }
+        }
     }
     #[inline(always)]
     fn binary(op: Binary, a: Self::Item, b: Self::Item) -> Self::Item {

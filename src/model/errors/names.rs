@@ -219,6 +219,13 @@ pub fn bad_edge(place: usize, points: usize, span: Span) -> Diagnostic {
         .help(format!("an edge is [i, j] with whole numbers from 1 to {points}, the number of points"))
 }
 
+/// `PNORM(a, b, 0)`
+pub fn no_zero_norm(p: Span) -> Diagnostic {
+    Diagnostic::error("zero-norm", "there is no p-norm with p = 0")
+        .at(p, "is 0")
+        .help("p > 0 joins values above the largest, p < 0 below the smallest; with p = INFINITY or -INFINITY it is just that one")
+}
+
 /// A call of something that is neither a function nor an object.
 pub fn not_callable(name: &str, value: &Value, span: Span) -> Diagnostic {
     let told = Diagnostic::error(

@@ -13,6 +13,7 @@ mod fold;
 mod operators;
 mod outline;
 mod repeat;
+mod star;
 mod statement;
 
 use std::sync::Arc;

@@ -59,6 +59,8 @@ pub struct View {
     pub cells: Cells,
     /// The numbers that points are computed with.
     pub precision: Precision,
+    /// Whether creases and corners are in meshes as they are, not beveled.
+    pub sharp: bool,
 }
 
 impl Default for View {
@@ -70,6 +72,7 @@ impl Default for View {
             bounds: Vec::new(),
             cells: Cells::Along(128),
             precision: Precision::Double,
+            sharp: false,
         }
     }
 }
