@@ -111,6 +111,28 @@ pub fn cast<T: Send>(
     cast_on(shape, scene, Aim { pattern: Pattern::Middles, tolerance: 1e-11, normals: true }, finish, interrupt)
 }
 
+/// A height map: what the ray through the middle of each cell meets, row by row, with depths found to `tolerance` of the range of depths.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+pub fn heights(
+    shape: &Shape,
+    scene: &Scene,
+    tolerance: f64,
+    interrupt: &Interrupt,
+) -> Result<(Vec<Option<Hit>>, Counters), Cancelled> {
+    interrupt.begin(scene.steps());
+    let aim = Aim { pattern: Pattern::Middles, tolerance, normals: true };
+    let (tiles, counters) = cast_on(shape, scene, aim, |tile| tile.hits.to_vec(), interrupt)?;
+    let mut all = vec![None; scene.rays[0] * scene.rays[1]];
+    for ([left, top], [columns, _], hits) in tiles {
+        for (j, row) in hits.chunks_exact(columns.max(1)).enumerate() {
+            all[(top + j) * scene.rays[0] + left..][..columns].copy_from_slice(row);
+        }
+    }
+    Ok((all, counters))
+}
+
 /// Casts the rays that are wanted, as a part of a task whose progress was begun already.
 ///
 /// # Errors
