@@ -7,6 +7,7 @@ pub mod functions;
 pub mod interval;
 pub mod leaf;
 pub mod op;
+pub mod polynomial;
 pub mod real;
 pub mod rfunction;
 pub mod turns;

@@ -4,6 +4,8 @@
 //! The modelling space caps the object: a ray that enters the space inside the object hits the face there. What is thinner than a
 //! sample spacing along a ray is found where the function has a maximum between samples, as at silhouettes.
 
+mod algebraic;
+
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
@@ -111,11 +113,29 @@ pub fn cast<T: Send>(
     cast_on(shape, scene, Aim { pattern: Pattern::Middles, tolerance: 1e-11, normals: true }, finish, interrupt)
 }
 
-/// Casts the rays that are wanted, as a part of a task whose progress was begun already.
+/// Casts the rays that are wanted, as a part of a task whose progress was begun already: by roots where the object is a set expression of
+/// polynomials, else by a search.
 ///
 /// # Errors
 /// [`Cancelled`] soon after the interrupt was set.
 pub fn cast_on<T: Send>(
+    shape: &Shape,
+    scene: &Scene,
+    aim: Aim<'_>,
+    finish: impl Fn(Tile<'_>) -> T + Sync,
+    interrupt: &Interrupt,
+) -> Result<Tiles<T>, Cancelled> {
+    match algebraic::polynomials(shape) {
+        Some(along) => algebraic::cast((shape, &along), scene, aim, &finish, interrupt),
+        None => search_on(shape, scene, aim, finish, interrupt),
+    }
+}
+
+/// The same by a search, whatever the object is.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+pub fn search_on<T: Send>(
     shape: &Shape,
     scene: &Scene,
     aim: Aim<'_>,
