@@ -330,6 +330,9 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("code", &["ball.geo"], &["ball.geo", "-e", "r"]),
     ("define", &["ball.geo", "-o", "-", "--format", "stl"], &["ball.geo", "-o", "-", "--format", "stl", "-D", "r=1"]),
     ("output", &["ball.geo"], &["ball.geo", "-o", "a.stl"]),
+    ("route", STL, &["ball.geo", "-o", "-", "--format", "stl", "--route", "cubes"]),
+    ("guide", STL, &["ball.geo", "-o", "-", "--format", "stl", "--guide", "sphere:2"]),
+    ("center", STL, &["ball.geo", "-o", "-", "--format", "stl", "--center", "0.1,0,0"]),
     ("format", &["ball.geo", "-o", "-", "--format", "stl"], &["ball.geo", "-o", "-", "--format", "obj"]),
     ("interactive", &["ball.geo"], &["ball.geo", "-i"]),
     ("exit_status", &["-e", "0"], &["-e", "0", "--exit-status"]),
@@ -394,6 +397,7 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("no_config", MOVING, &["growing.geo", "-o", "-", "--format", "gif", "--size", "32x32", "--no-config"]),
     ("strict", &["-e", "r = 1; q = r; r = 2;"], &["-e", "r = 1; q = r; r = 2;", "-W"]),
 ];
+const STL: &[&str] = &["ball.geo", "-o", "-", "--format", "stl"];
 const PICTURE: &[&str] = &["ball.geo", "-o", "-", "--format", "png"];
 /// A plate below the ball, which throws its shadow on it.
 const PLATE: &str = "gob_plate = (x3 + 1.95 & -1.85 - x3) | gob_ball;";

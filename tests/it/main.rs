@@ -37,6 +37,7 @@ mod scenes;
 mod session;
 mod slips;
 mod solids;
+mod stars;
 mod stdlib;
 mod tidy;
 mod usage;
