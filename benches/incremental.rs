@@ -1,6 +1,8 @@
 //! How much faster an answer is after one parameter of a hundred parts was changed than in a session that keeps nothing. One run
 //! alternates both and prints medians: `cargo bench --bench incremental`; a number after `--` is how many rounds.
 
+#![allow(clippy::print_stdout)]
+
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 

@@ -5,6 +5,8 @@ INCLUDE "shapes/polyhedra.geo";
 INCLUDE "shapes/figures.geo";
 INCLUDE "shapes/lattices.geo";
 INCLUDE "shapes/surfaces.geo";
+INCLUDE "shapes/lp.geo";
+INCLUDE "shapes/star.geo";
 INCLUDE "fields/skeletons.geo";
 INCLUDE "fields/noise.geo";
 INCLUDE "operations/sets.geo";

@@ -105,6 +105,15 @@ pub(super) static TABLE: &[Builtin] = &[
     ),
     entry(Special::Norm, Arrays, "NORM", &["a"], "The Euclidean length of a vector.", ("NORM([2, 3, 6])", 7.0)),
     entry(
+        Special::PNorm,
+        Arrays,
+        "PNORM",
+        &["a", "b", "...", "p"],
+        "The p-norm (|a|**p + |b|**p + ...)**(1/p) of its other arguments, or of the elements of one array: PNORM(h, p). For p < 0 below \
+         all of them, for p = INFINITY and -INFINITY their largest and smallest magnitude; undefined for p = 0. Never overflows.",
+        ("PNORM(3, 4, 2)", 5.0),
+    ),
+    entry(
         Special::Random,
         Arrays,
         "RANDOM",
@@ -145,6 +154,16 @@ pub(super) static TABLE: &[Builtin] = &[
         "The highest e in the closed ball of radius d about the point, in the coordinates that e uses: the object grown by d. For d < 0 \
          the lowest in the ball of radius -d: the object shrunk.",
         ("OFFSET_BALL(2 - x1, 0.5) AT (x1 = 1)", 1.5),
+    ),
+    entry(
+        Special::Star,
+        Functions,
+        "STAR",
+        &["P", "p_local", "p_global"],
+        "The star solid of a control shape about the origin: the union, blended by p_global, of the convex polyhedra in the array P. Each is \
+         an array of half-spaces: [a, b, c] is a*x1 + b*x2 + c*x3 <= 1; their edges are blended by p_local, one number or one for each \
+         polyhedron. INFINITY keeps edges sharp.",
+        ("STAR([[[1, 0], [-1, 0], [0, 1], [0, -1]]], 2, INFINITY) AT (3, 4)", -4.0),
     ),
     entry(
         Special::Interpolate,

@@ -98,6 +98,10 @@ pub enum Special {
     Cross,
     /// `NORM(a)`
     Norm,
+    /// `PNORM(a, b, p)`, `PNORM(a, p)`
+    PNorm,
+    /// `STAR(P, p_local, p_global)`
+    Star,
     /// `RANDOM(seed, i)`
     Random,
     /// `DIFF(e, x1)`
@@ -227,8 +231,9 @@ impl Builtin {
                     Arity::Exactly(1)
                 }
                 S::Len | S::Norm | S::Grad => Arity::Exactly(1),
-                S::Join => Arity::AtLeast(2),
+                S::Join | S::PNorm => Arity::AtLeast(2),
                 S::Dot | S::Cross | S::Random | S::Diff | S::OffsetBall => Arity::Exactly(2),
+                S::Star => Arity::Exactly(3),
                 S::Project => Arity::Exactly(4),
                 S::Interpolate => Arity::Between(3, 5),
             },

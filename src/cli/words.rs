@@ -24,6 +24,7 @@ pub static WORDS: &[Word] = &[
     ("INCLUDE", "INCLUDE \"file.geo\";", "The definitions of another file, looked for beside this one."),
     ("PRINT", "PRINT e, \"text\";", "Shows values as they are at this place."),
     ("PI", "PI", "3.14159..., half a turn in radians."),
+    ("INFINITY", "INFINITY", "Beyond all numbers: the p of a largest or smallest value in PNORM and STAR."),
     ("R_ALPHA", "r_alpha = 1;", "The system of R-functions from here on: 1 is min and max, 0 (the default) smooth."),
     ("R_M", "r_m = 1;", "R-functions with that many continuous derivatives from here on; 0 is off."),
     ("X", "x1 : X;", "A geometric type: the first axis of space. Y and Z are the others."),

@@ -394,6 +394,8 @@ fn is_continuous_in(graph: &Graph, root: NodeId, by: Coordinates) -> bool {
             Node::Unary(op, _) => !matches!(op, Unary::Floor | Unary::Ceil | Unary::Round | Unary::Sign | Unary::Not),
             Node::Binary(Max, ..) | Node::Ternary(Ternary::Union | Ternary::UnionSmooth, _) => operands,
             Node::Binary(op, ..) => matches!(op, Add | Sub | Mul | Div | Min | Pow | Hypot),
+            // A parameter that passes 0 jumps there.
+            Node::Ternary(Ternary::Norm, [_, _, p]) => graph.number(*p).is_some(),
             Node::Ternary(op, _) => *op != Ternary::Select,
             Node::Constant(_) | Node::Coordinate(_) => true,
             // The highest value of what is continuous in all its parameters moves continuously with them.
@@ -408,7 +410,9 @@ fn is_continuous_in(graph: &Graph, root: NodeId, by: Coordinates) -> bool {
         if !continuous && graph.coordinates(id).meets(by) {
             return false;
         }
-        total[id.index()] = operands && is_total(node);
+        let by_zero =
+            matches!(node, Node::Ternary(Ternary::Norm, [_, _, p]) if graph.number(*p).is_none_or(|p| p == 0.0));
+        total[id.index()] = operands && !by_zero && is_total(node);
     }
     true
 }

@@ -154,7 +154,7 @@ fn in_force(op: Ternary, c: Option<f64>) -> Option<InForce> {
     match op {
         Ternary::Union | Ternary::Intersection => Some(InForce::Alpha(c?.to_bits())),
         Ternary::UnionSmooth | Ternary::IntersectionSmooth => Some(InForce::Smooth(c?.to_bits())),
-        Ternary::Select => None,
+        Ternary::Select | Ternary::Norm => None,
     }
 }
 

@@ -119,7 +119,7 @@ impl Walk {
 
     fn expr(&mut self, e: &Expr) {
         match &e.kind {
-            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Pi | ExprKind::Coordinate(_) => {}
+            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Pi | ExprKind::Infinity | ExprKind::Coordinate(_) => {}
             ExprKind::Name(name) => self.read(name, e.span),
             ExprKind::Array(items) => self.exprs(items),
             ExprKind::Paren(inner) | ExprKind::Prefix { operand: inner, .. } => self.expr(inner),

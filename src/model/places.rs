@@ -93,7 +93,12 @@ fn parts(definition: &Definition) -> Vec<&Expr> {
     while let Some(e) = open.pop() {
         all.push(e);
         match &e.kind {
-            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Coordinate(_) | ExprKind::Name(_) | ExprKind::Pi => {}
+            ExprKind::Number(_)
+            | ExprKind::Text(_)
+            | ExprKind::Coordinate(_)
+            | ExprKind::Name(_)
+            | ExprKind::Pi
+            | ExprKind::Infinity => {}
             ExprKind::Array(items) => open.extend(items),
             ExprKind::Paren(inner) => open.push(inner),
             ExprKind::Chain { first, rest } => {

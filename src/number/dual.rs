@@ -6,6 +6,7 @@
 use super::Algebra;
 use super::float;
 use super::functions;
+use super::norm;
 use super::op::{Binary, Ternary, Unary};
 use super::real::is_true;
 use super::rfunction;
@@ -182,6 +183,12 @@ impl Ternary {
             Self::UnionSmooth => smooth(a, b, c),
             Self::Intersection => intersection(a, b, c, union),
             Self::IntersectionSmooth => intersection(a, b, c, smooth),
+            Self::Norm => {
+                let value = self.real(a.value, b.value, c.value);
+                let by = norm::norm_slopes(a.value, b.value, c.value, value);
+                let sides = a.chain2(b, value, (by.0, by.1));
+                sides.chain2(c, value, (1.0, by.2))
+            }
         }
     }
 }

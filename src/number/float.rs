@@ -8,7 +8,7 @@ use super::op::Unary;
 
 /// `f64` or `f32`. Everything here is branch-free where it matters, so that a loop over a block becomes vector code.
 ///
-/// The elementary functions of `f32` are computed in doubles and rounded: within 0.52 units in the last place.
+/// The elementary functions of `f32` are within 0.52 units in the last place, `exp` and `log` within 1.
 pub trait Float:
     Copy
     + PartialOrd
@@ -231,33 +231,28 @@ pub fn powi<T: Float>(a: T, n: i32) -> T {
     result
 }
 
-/// [`powi`] of every number of a block, in groups of lanes, since the exponent is not known when the loop is compiled.
+/// [`powi`] of every number of a block: loops over lanes within the loop over the exponent's bits, which are not known when it is
+/// compiled.
 #[inline(always)]
 pub fn powi_map<T: Float>(a: &[T], out: &mut [T], n: i32) {
-    const LANES: usize = 16;
-    let mut groups = a.chunks_exact(LANES);
-    let mut results = out.chunks_exact_mut(LANES);
-    for (a, out) in (&mut groups).zip(&mut results) {
+    const LANES: usize = 64;
+    for (a, out) in a.chunks(LANES).zip(out.chunks_mut(LANES)) {
         let mut square = [T::ONE; LANES];
-        let mut result = [T::ONE; LANES];
-        for i in 0..LANES {
-            square[i] = if n < 0 { T::ONE / a[i] } else { a[i] };
-            result[i] = T::ONE.when(!a[i].undefined(), a[i]);
+        let square = &mut square[..a.len()];
+        for ((&a, square), out) in a.iter().zip(&mut *square).zip(&mut *out) {
+            *square = if n < 0 { T::ONE / a } else { a };
+            *out = T::ONE.when(!a.undefined(), a);
         }
         let mut rest = n.unsigned_abs();
         while rest != 0 {
-            for i in 0..LANES {
-                if rest & 1 == 1 {
-                    result[i] = result[i] * square[i];
-                }
-                square[i] = square[i] * square[i];
+            if rest & 1 == 1 {
+                out.iter_mut().zip(&*square).for_each(|(out, &square)| *out = *out * square);
             }
             rest >>= 1;
+            if rest != 0 {
+                square.iter_mut().for_each(|square| *square = *square * *square);
+            }
         }
-        out.copy_from_slice(&result);
-    }
-    for (&a, out) in groups.remainder().iter().zip(results.into_remainder()) {
-        *out = powi(a, n);
     }
 }
 

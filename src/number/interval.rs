@@ -4,6 +4,7 @@
 //! a product or quotient underflows to zero, the bound is that zero, as the points compute it.
 
 use super::Algebra;
+use super::norm;
 use super::op::{Binary, Ternary, Unary};
 
 mod arithmetic;
@@ -213,6 +214,10 @@ impl Ternary {
             Self::Intersection => sets::intersection(a, b, c),
             Self::UnionSmooth => sets::union_smooth(a, b, c),
             Self::IntersectionSmooth => sets::intersection_smooth(a, b, c),
+            Self::Norm => {
+                let (a, b) = (Unary::Abs.interval(a), Unary::Abs.interval(b));
+                strict(strict(norm::range(a, b, c), a, b), c, c)
+            }
         }
     }
 }

@@ -18,4 +18,12 @@ pub trait Leaf: fmt::Debug + Send + Sync {
     fn gradient(&self, at: &[f64], slope: &mut [f64]) -> f64;
     /// Bounds of all values over a box, the rounding of `value` included.
     fn bounds(&self, over: &[Interval]) -> Interval;
+    /// Whether `value` of t times a point is t times the value there, for t > 0, and never negative: \[A96\] definition 1.
+    fn is_ray_linear(&self) -> bool {
+        false
+    }
+    /// The star solid of half-spaces that it is, if it is one.
+    fn star(&self) -> Option<&super::star::StarSolid> {
+        None
+    }
 }

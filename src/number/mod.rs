@@ -6,10 +6,12 @@ pub mod float;
 pub mod functions;
 pub mod interval;
 pub mod leaf;
+pub mod norm;
 pub mod op;
 pub mod polynomial;
 pub mod real;
 pub mod rfunction;
+pub mod star;
 pub mod turns;
 
 pub use dual::{Dual, Duals};

@@ -136,4 +136,6 @@ pub enum Ternary {
     UnionSmooth,
     /// R-intersection with that factor
     IntersectionSmooth,
+    /// The p-norm `(|a|^c + |b|^c)^(1/c)`: \[H90\] eq. (1) and, for c < 0, (10); undefined if an operand is, or for c = 0
+    Norm,
 }

@@ -5,6 +5,7 @@
 use super::Algebra;
 use super::float::{self, Float};
 use super::functions;
+use super::norm;
 use super::op::{Binary, Ternary, Unary};
 use super::rfunction;
 
@@ -38,8 +39,11 @@ impl Unary {
     pub fn map<T: Float>(self, a: &[T], out: &mut [T]) {
         let length = a.len().min(out.len());
         let (a, out) = (&a[..length], &mut out[..length]);
-        if let Self::Powi(n) = self {
-            return float::powi_map(a, out, n);
+        match self {
+            // With the usual exponents as constants the loop over their bits falls away.
+            Self::Powi(-2..=4) => {}
+            Self::Powi(n) => return float::powi_map(a, out, n),
+            _ => {}
         }
         let mut rare = false;
         for (&a, out) in a.iter().zip(&mut *out) {
@@ -136,6 +140,7 @@ impl Ternary {
             Self::Intersection => rfunction::intersection(a, b, c),
             Self::UnionSmooth => rfunction::union_smooth(a, b, c),
             Self::IntersectionSmooth => rfunction::intersection_smooth(a, b, c),
+            Self::Norm => norm::norm(a, b, c),
         }
     }
 

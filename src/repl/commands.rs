@@ -371,6 +371,7 @@ fn settings(making: &Making) -> String {
     say("object", (!making.subject.object.is_empty()).then(|| making.subject.object.join(",")));
     say("resolution", making.fineness.resolution.map(|n| n.to_string()));
     say("cell", making.fineness.cell.map(|length| length.to_string()));
+    say("sharp", making.fineness.sharp.map(|sharp| if sharp.is_on() { "on" } else { "off" }.to_owned()));
     say("size", making.look.size.map(|size| format!("{}x{}", size.width, size.height)));
     say("view", making.look.view.clone());
     say("camera", making.look.camera.as_ref().map(ToString::to_string));

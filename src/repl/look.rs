@@ -57,7 +57,7 @@ fn look(text: &str, token: Token) -> Look {
 
 fn word(word: &str, rest: &str) -> Look {
     let prefixed = ["gob_", "pob_", "tr_", "rel_"].iter().any(|prefix| word.starts_with(prefix));
-    if is_reserved(word) || word.eq_ignore_ascii_case("PI") {
+    if is_reserved(word) || ["PI", "INFINITY"].iter().any(|w| word.eq_ignore_ascii_case(w)) {
         Look::Keyword
     } else if coordinate_digits(word).is_some() {
         Look::Coordinate

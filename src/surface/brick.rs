@@ -268,19 +268,10 @@ impl<'a> Gathering<'a> {
         let side = std::array::from_fn(|d| (block.to[d] + 1).min(self.grid.cells[d] + 1) - block.from[d]);
         let [xs, ys, zs]: [Vec<f64>; 3] =
             std::array::from_fn(|d| (0..side[d]).map(|i| self.grid.coordinate(d, block.from[d] + i)).collect());
-        let scratch = &mut self.scratch;
-        scratch.columns.iter_mut().for_each(Vec::clear);
-        let [x, y, z] = &mut scratch.columns;
-        for &c in &zs {
-            for &b in &ys {
-                x.extend_from_slice(&xs);
-                y.resize(x.len(), b);
-            }
-            z.resize(x.len(), c);
-        }
-        scratch.values.clear();
-        scratch.values.resize(x.len(), 0.0);
-        sampler.values(program, &[&x[..], y, z][..self.grid.dimension()], &mut scratch.values);
+        let values = &mut self.scratch.values;
+        values.clear();
+        values.resize(side.iter().product(), 0.0);
+        sampler.lattice(program, &[&xs[..], &ys, &zs][..self.grid.dimension()], values);
         side
     }
 

@@ -15,6 +15,7 @@ use super::detail::Detail;
 use super::grid::{Grid, LEAF};
 use super::mesh::{Mesh, cross, minus, unit};
 use super::sampler::{Counters, Sampler};
+use super::sharp::Sharpened;
 use super::table::{CASES, Edge, edge_start};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
@@ -46,6 +47,8 @@ pub struct Report {
     pub full: bool,
     /// Some of what the grid is too coarse to show.
     pub details: Vec<Detail>,
+    /// What became of the creases, if they were to be sharp.
+    pub sharpened: Option<Sharpened>,
 }
 
 /// Why there is no mesh.

@@ -9,8 +9,9 @@ use super::check::{Fault, Topology, check};
 use super::curvature::{self, Sum};
 use super::estimate::{Bend, Estimate};
 use super::grid::Grid;
-use super::marching::{Extraction, Report, SurfaceError, extract};
+use super::marching::{Extraction, Report, SurfaceError};
 use super::mesh::{Mesh, cross, dot, minus};
+use super::sharp::extract_as;
 use super::space::reach;
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
@@ -86,16 +87,37 @@ impl From<Fault> for MeasureError {
 /// # Errors
 /// See [`MeasureError`].
 pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Measures, MeasureError> {
-    let tell = |to: &mut Digest| {
-        shape.tell(to);
-        to.shown(&(grid, limits.memory_bytes, limits.search_operations));
-    };
-    interrupt.whole("measures", tell, |_| size_of::<Measures>(), || measured(shape, grid, limits, interrupt))
+    measure_as(shape, grid, false, limits, interrupt)
 }
 
-fn measured(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Measures, MeasureError> {
+/// The same, with the creases and corners in the meshes if they are to be `sharp`.
+///
+/// # Errors
+/// See [`MeasureError`].
+pub fn measure_as(
+    shape: &Shape,
+    grid: &Grid,
+    sharp: bool,
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<Measures, MeasureError> {
+    let tell = |to: &mut Digest| {
+        shape.tell(to);
+        to.shown(&(grid, sharp, limits.memory_bytes, limits.search_operations));
+    };
+    let measured = || measured(shape, grid, sharp, limits, interrupt);
+    interrupt.whole("measures", tell, |_| size_of::<Measures>(), measured)
+}
+
+fn measured(
+    shape: &Shape,
+    grid: &Grid,
+    sharp: bool,
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<Measures, MeasureError> {
     let levels: Vec<Level> =
-        grid.coarser().iter().map(|grid| Level::of(shape, grid, limits, interrupt)).collect::<Result<_, _>>()?;
+        grid.coarser().iter().map(|grid| Level::of(shape, grid, sharp, limits, interrupt)).collect::<Result<_, _>>()?;
     let fine = &levels[0];
     let size = (0..3).map(|d| grid.hi[d] - grid.lo[d]).fold(0.0, f64::max);
     let estimate = |part: &dyn Fn(&Integrals) -> f64, scale: f64| {
@@ -141,12 +163,19 @@ struct Level {
 }
 
 impl Level {
-    fn of(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Self, MeasureError> {
-        let Extraction { mesh, own, report } = extract(shape, grid, limits, interrupt)?;
+    fn of(
+        shape: &Shape,
+        grid: &Grid,
+        sharp: bool,
+        limits: &Limits,
+        interrupt: &Interrupt,
+    ) -> Result<Self, MeasureError> {
+        let Extraction { mesh, own, report } = extract_as(shape, grid, sharp, limits, interrupt)?;
         let topology = check(&mesh)?;
         let bends = curvature::of_mesh(shape, &mesh, own, grid.cell(), interrupt).map_err(SurfaceError::from)?;
         let is_smooth = own == mesh.triangles.len() && !has_creases(&mesh);
-        let lost = lost(&mesh, own);
+        let new = report.sharpened.as_ref().map_or(0, |sharpened| sharpened.vertices);
+        let lost = lost(&mesh, own, mesh.positions.len() - new);
         Ok(Self { integrals: Integrals::of(&mesh), bends, topology, is_smooth, lost, report })
     }
 }
@@ -159,12 +188,16 @@ fn has_creases(mesh: &Mesh) -> bool {
 
 /// What the mesh loses of area and volume where triangles bevel a crease: those whose normals turn by more than 40 degrees. The sides that
 /// would meet in the crease are longer than the bevel by one over the cosine of half the turn, and stand as high over it as its tangent says.
-fn lost(mesh: &Mesh, own: usize) -> [f64; 2] {
+/// Triangles at a vertex of a crease, from number `crease` on, lose nothing.
+fn lost(mesh: &Mesh, own: usize, crease: usize) -> [f64; 2] {
     // Beyond this turn normals tell little of the sides.
     const SHARPEST: f64 = -0.87;
     // The turn is somewhat larger in places than what the normals at the ends of an edge say.
     const MARGIN: f64 = 1.2;
     let of = |&[a, b, c]: &[u32; 3]| {
+        if a.max(b).max(c) as usize >= crease {
+            return [0.0; 2];
+        }
         let turn = |a: u32, b: u32| dot(mesh.normals[a as usize], mesh.normals[b as usize]);
         let (cosine, from, to) = [(turn(a, b), a, b), (turn(b, c), b, c), (turn(c, a), c, a)]
             .into_iter()

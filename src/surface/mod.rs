@@ -3,7 +3,7 @@
 //! The way of a mesh: [`grid`] says where the sample points lie, [`boxes`] finds the undecided leaves among them, [`brick`] evaluates a leaf
 //! and finds a vertex on each crossed edge ([`roots`]), [`marching`] joins the vertices to triangles ([`table`]), [`cap`] closes the object
 //! at the faces of the modelling space. [`check()`] proves the mesh closed, [`measure()`] integrates over it, [`contour`] does the same for
-//! 2-D shapes. [`space`] finds the modelling space when nobody gave one.
+//! 2-D shapes. [`sharp`] puts creases into a mesh that is there. [`space`] finds the modelling space when nobody gave one.
 
 pub mod boxes;
 pub mod brick;
@@ -12,6 +12,7 @@ pub mod check;
 pub mod contour;
 pub mod curvature;
 pub mod detail;
+pub mod edit;
 pub mod estimate;
 pub mod figure;
 pub mod grid;
@@ -22,6 +23,7 @@ pub mod memory;
 pub mod mesh;
 pub mod roots;
 pub mod sampler;
+pub mod sharp;
 pub mod space;
 pub mod star;
 pub mod table;

@@ -131,6 +131,8 @@ pub enum ExprKind {
     Name(Name),
     /// `PI`
     Pi,
+    /// `INFINITY`, in any case
+    Infinity,
     /// `[a, b]`
     Array(Vec<Expr>),
     /// `(e)`: kept for the formatter

@@ -1,7 +1,8 @@
 //! Values at many points, in double or single precision. Double precision decides what a user sees; single precision may filter.
 //! Allocates nothing per block once it has seen its largest program.
 
-use super::kernels::{Kind, Store, doubles, singles};
+use super::kernels::{Code, Kind, Store, doubles, singles};
+use super::lattice::Walked;
 use super::program::Program;
 use super::region::{Counts, Pointwise, RegionProgram, RegionStore};
 use crate::interrupt::Interrupt;
@@ -63,8 +64,8 @@ impl Kind for Doubles {
     type Watch = ();
     const LANES: usize = 128;
 
-    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
-        doubles(program, store, lanes, watch);
+    fn run_code(code: Code<'_>, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
+        doubles(code, store, lanes, watch);
     }
 
     #[inline(always)]
@@ -123,8 +124,8 @@ impl Kind for Singles {
     type Watch = ();
     const LANES: usize = 256;
 
-    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
-        singles(program, store, lanes, watch);
+    fn run_code(code: Code<'_>, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
+        singles(code, store, lanes, watch);
     }
 
     #[inline(always)]
@@ -181,7 +182,8 @@ impl Pointwise for Singles {
 
 /// Evaluates programs at points, a block at a time. Keep one per thread.
 pub struct Points<T: Scalar> {
-    store: Store<T::Of>,
+    pub(super) store: Store<T::Of>,
+    pub(super) walked: Option<Box<Walked<T>>>,
 }
 
 impl<T: Scalar> Default for Points<T> {
@@ -194,13 +196,13 @@ impl<T: Scalar> Points<T> {
     /// An evaluator without storage yet.
     #[must_use]
     pub fn new() -> Self {
-        Self { store: Store::new() }
+        Self { store: Store::new(), walked: None }
     }
 
     /// The same, but once the interrupt is set loops and searches end at once, with values that mean nothing.
     #[must_use]
     pub fn heeding(interrupt: &Interrupt) -> Self {
-        Self { store: Store::heeding(interrupt) }
+        Self { store: Store::heeding(interrupt), walked: None }
     }
 
     /// What loops and searches have cost since the last call.

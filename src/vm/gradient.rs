@@ -1,7 +1,7 @@
 //! Values with their exact derivatives by up to three inputs at a time, forward, a block of points at a time. The values are those of
 //! [`super::Points`] to the bit.
 
-use super::kernels::{Kind, Store, duals};
+use super::kernels::{Code, Kind, Store, duals};
 use super::program::Program;
 use super::region::{Counts, Pointwise, RegionProgram, RegionStore};
 use crate::interrupt::Interrupt;
@@ -35,8 +35,8 @@ impl Kind for Duals {
     type Watch = ();
     const LANES: usize = LANES;
 
-    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
-        duals(program, store, lanes, watch);
+    fn run_code(code: Code<'_>, store: &mut Store<Self>, lanes: usize, watch: &mut ()) {
+        duals(code, store, lanes, watch);
     }
 
     #[inline(always)]

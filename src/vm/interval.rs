@@ -1,7 +1,7 @@
 //! Ranges over boxes, up to 64 boxes at a time, and which operands can never matter in each: what `specialise` shortens by.
 
 use super::choice::{Choices, watch};
-use super::kernels::{Kind, Operands, Store, ranges};
+use super::kernels::{Code, Kind, Operands, Store, ranges};
 use super::program::{Op, Program};
 use super::region::{RegionProgram, RegionStore};
 use super::specialise::Scratch;
@@ -34,8 +34,8 @@ impl Kind for Ranges {
     type Watch = Choices;
     const LANES: usize = LANES;
 
-    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut Choices) {
-        ranges(program, store, lanes, watch);
+    fn run_code(code: Code<'_>, store: &mut Store<Self>, lanes: usize, watch: &mut Choices) {
+        ranges(code, store, lanes, watch);
     }
 
     #[inline(always)]

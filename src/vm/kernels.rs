@@ -4,11 +4,14 @@
 //! Each result is computed into a spare block, which then changes places with the block of its slot: so a result may take the slot of
 //! an operand, and the loops never write where they read (they would fall back to scalar code).
 
+use std::sync::Arc;
+
 #[cfg(not(debug_assertions))]
 use multiversion::multiversion;
 
 use super::program::{Op, Program, Value};
 use super::region::{Counts, RegionProgram, RegionStore};
+use crate::field::SharedLeaf;
 use crate::interrupt::Interrupt;
 use crate::number::{Binary, Leaf, Ternary, Unary};
 
@@ -41,8 +44,13 @@ pub(crate) trait Kind: Sized {
 
     fn leaf(leaf: &dyn Leaf, arguments: &[Self::Item]) -> Self::Item;
 
-    /// Runs a program on the first `lanes` lanes of the input blocks, with the best instructions that there are.
-    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut Self::Watch);
+    /// Runs operations on the first `lanes` lanes of the blocks, with the best instructions that there are.
+    fn run_code(code: Code<'_>, store: &mut Store<Self>, lanes: usize, watch: &mut Self::Watch);
+
+    /// Runs a program on the first `lanes` lanes of the input blocks.
+    fn run(program: &Program, store: &mut Store<Self>, lanes: usize, watch: &mut Self::Watch) {
+        Self::run_code(Code::of(program), store, lanes, watch);
+    }
 
     /// Runs a region on the first `lanes` lanes of the arguments that it was given.
     fn region(program: &RegionProgram, store: &mut RegionStore<Self>, lanes: usize);
@@ -53,6 +61,31 @@ pub(crate) trait Kind: Sized {
     /// Called with each operation before its result takes its slot.
     #[inline(always)]
     fn watch(_: &mut Self::Watch, _at: usize, _op: &Op, _operands: &Operands<'_, Self>, _result: &Self::Block) {}
+}
+
+/// Operations to run in their order, and where their operands and results lie.
+#[derive(Clone, Copy)]
+pub(crate) struct Code<'a> {
+    pub(crate) operations: &'a [Op],
+    /// The slot of each operation's result.
+    pub(crate) results: &'a [u32],
+    /// The slot of each value that an operation reads.
+    pub(crate) slots: &'a [u32],
+    pub(crate) leaves: &'a [SharedLeaf],
+    pub(crate) regions: &'a [Arc<RegionProgram>],
+}
+
+impl<'a> Code<'a> {
+    /// The whole of a program.
+    pub(crate) fn of(program: &'a Program) -> Self {
+        Self {
+            operations: &program.operations,
+            results: &program.slots[program.inputs.len()..],
+            slots: &program.slots,
+            leaves: &program.leaves,
+            regions: &program.regions,
+        }
+    }
 }
 
 /// The blocks of an evaluator, kept from one call to the next.
@@ -79,12 +112,22 @@ impl<K: Kind> Store<K> {
 
     /// Makes room for a program; allocates only for more slots than ever before.
     pub(crate) fn reserve(&mut self, program: &Program) {
-        while self.slots.len() < program.slot_count() {
-            self.slots.push(Box::default());
-        }
+        self.reserve_slots(program.slot_count());
         while self.regions.len() < program.regions.len() {
             self.regions.push(RegionStore::heeding(&self.interrupt));
         }
+    }
+
+    /// Makes room for so many slots.
+    pub(crate) fn reserve_slots(&mut self, count: usize) {
+        while self.slots.len() < count {
+            self.slots.push(Box::default());
+        }
+    }
+
+    /// The block of a slot.
+    pub(crate) fn slot(&self, slot: u32) -> &K::Block {
+        &self.slots[slot as usize]
     }
 
     /// What loops and searches have cost since the last call.
@@ -121,21 +164,20 @@ impl<'a, K: Kind> Operands<'a, K> {
     }
 }
 
-/// Runs the program on the first `lanes` lanes of the input blocks. Inlined into one function per kind and instruction set.
+/// Runs the operations on the first `lanes` lanes of their blocks. Inlined into one function per kind and instruction set.
 #[inline(always)]
-fn run<K: Kind>(program: &Program, store: &mut Store<K>, lanes: usize, watch: &mut K::Watch) {
-    let results = &program.slots[program.inputs.len()..];
-    for (at, (op, slot)) in program.operations.iter().zip(results).enumerate() {
-        let operands = Operands { blocks: &store.slots, slots: &program.slots };
+fn run<K: Kind>(code: Code<'_>, store: &mut Store<K>, lanes: usize, watch: &mut K::Watch) {
+    for (at, (op, slot)) in code.operations.iter().zip(code.results).enumerate() {
+        let operands = Operands { blocks: &store.slots, slots: code.slots };
         if let Op::Give(..) | Op::Region(..) | Op::Output(..) = op {
             let live = store.live.min(lanes);
-            if !region::<K>(program, op, &operands, &mut store.regions, live, &mut store.spare) {
+            if !region::<K>(code.regions, op, &operands, &mut store.regions, live, &mut store.spare) {
                 continue;
             }
             std::mem::swap(&mut store.spare, &mut store.slots[*slot as usize]);
             continue;
         }
-        step::<K>(program, op, &operands, &mut store.spare, lanes);
+        step::<K>(code.leaves, op, &operands, &mut store.spare, lanes);
         K::watch(watch, at, op, &operands, &store.spare);
         std::mem::swap(&mut store.spare, &mut store.slots[*slot as usize]);
     }
@@ -143,7 +185,7 @@ fn run<K: Kind>(program: &Program, store: &mut Store<K>, lanes: usize, watch: &m
 
 /// The steps of a region: what it is given, what it does, what it puts out. Whether there is a result.
 fn region<K: Kind>(
-    program: &Program,
+    programs: &[Arc<RegionProgram>],
     op: &Op,
     operands: &Operands<'_, K>,
     regions: &mut [RegionStore<K>],
@@ -157,7 +199,7 @@ fn region<K: Kind>(
         }
         Op::Region(region, _) => {
             let region = region as usize;
-            K::region(&program.regions[region], &mut regions[region], live);
+            K::region(&programs[region], &mut regions[region], live);
             regions[region].put_out(0, out, live);
             true
         }
@@ -187,13 +229,13 @@ macro_rules! runner {
             not(debug_assertions),
             multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))
         )]
-        pub(crate) fn $name(
-            program: &Program,
+        pub(crate) fn $name<'a>(
+            code: Code<'a>,
             store: &mut Store<$kind>,
             lanes: usize,
             watch: &mut <$kind as Kind>::Watch,
         ) {
-            run::<$kind>(program, store, lanes, watch);
+            run::<$kind>(code, store, lanes, watch);
         }
     };
 }
@@ -204,7 +246,7 @@ runner!(duals, super::gradient::Duals);
 runner!(ranges, super::interval::Ranges);
 
 #[inline(always)]
-fn step<K: Kind>(program: &Program, op: &Op, operands: &Operands<'_, K>, out: &mut K::Block, lanes: usize) {
+fn step<K: Kind>(leaves: &[SharedLeaf], op: &Op, operands: &Operands<'_, K>, out: &mut K::Block, lanes: usize) {
     match *op {
         Op::Constant(value) => {
             let value = K::constant(value);
@@ -219,7 +261,7 @@ fn step<K: Kind>(program: &Program, op: &Op, operands: &Operands<'_, K>, out: &m
         Op::Extreme(op, _, a, b) => binary::<K>(op, operands.of(a), operands.of(b), out, lanes),
         Op::Give(..) | Op::Region(..) | Op::Output(..) => debug_assert!(false, "regions run by themselves"),
         Op::Leaf(leaf, arity, arguments) => {
-            let leaf = &*program.leaves[leaf as usize].0;
+            let leaf = &*leaves[leaf as usize].0;
             for i in 0..lanes {
                 let items = arguments.map(|a| K::get(operands.of(a), i));
                 K::set(out, i, K::leaf(leaf, &items[..usize::from(arity)]));
@@ -296,7 +338,7 @@ fn with_left<K: Kind>(op: Binary, number: f64, b: &K::Block, out: &mut K::Block,
 fn ternary<K: Kind>(op: Ternary, [a, b, c]: [&K::Block; 3], out: &mut K::Block, lanes: usize) {
     apart!(
         op,
-        Ternary [Select Union Intersection UnionSmooth IntersectionSmooth];
+        Ternary [Select Union Intersection UnionSmooth IntersectionSmooth Norm];
         out, lanes, i => K::ternary(THE, K::get(a, i), K::get(b, i), K::get(c, i))
     );
 }
@@ -306,7 +348,7 @@ fn join<K: Kind>(op: Ternary, a: &K::Block, b: &K::Block, number: f64, out: &mut
     let c = K::constant(number);
     apart!(
         op,
-        Ternary [Union Intersection UnionSmooth IntersectionSmooth],
+        Ternary [Union Intersection UnionSmooth IntersectionSmooth Norm],
         Ternary::Select => debug_assert!(false, "a condition has no parameter");
         out, lanes, i => K::ternary(THE, K::get(a, i), K::get(b, i), c)
     );

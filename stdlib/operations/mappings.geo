@@ -1,7 +1,7 @@
 // Mappings
 
 { The object moved by the vector v, along as many coordinates as that has elements.
-  Example: tr_shift(pob_sphere([0, 0, 0], 1), [3, 0, 0]) AT (3, 0, 0)   // 1
+  Example: tr_shift(pob_sphere([0, 0, 0], 1), [0.5, 0, 0.5]) AT (1.5, 0, 0.5)   // 0
   Source: [P95] (11) }
 tr_shift((gob/pob) g, (array) v) = g AT (fn_from(v));
 
@@ -52,7 +52,7 @@ fn_cofactor((array) A, (real) i, (real) j) = IF LEN(A) <= 1 THEN 1 ELSE
     A[r + (IF r < i THEN 0 ELSE 1)][s + (IF s < j THEN 0 ELSE 1)])));
 
 { The object under the affine mapping that takes each point X to A X + C; A is an array of rows whose determinant is not 0, and may depend on time.
-  Example: tr_affine(pob_circle([0, 0], 1), [[2, 1], [0, 1]], [5, 0]) AT (7, 0)   // 0
+  Example: tr_affine(pob_circle([0, 0], 0.5), [[2, 1], [0, 1]], [0.1, 0]) AT (1.1, 0)   // 0
   Source: [P95] (11) }
 tr_affine((gob/pob) g, (array) A, (array) C) =
   g AT (ARRAY(i = 1 TO LEN(C), SUM(j = 1 TO LEN(C), fn_cofactor(A, j, i)*q[j])/d)) WHERE q = fn_from(C), d = fn_det(A);

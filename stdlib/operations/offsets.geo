@@ -17,7 +17,8 @@ tr_offset_normal((gob/pob) g, (real) d) = g AT (ARRAY(i = 1 TO LEN(G), fn_point(
   Source: [P95] 2.2.3 }
 tr_offset_radius((gob/pob) g, (real) d) = OFFSET_BALL(g, d);
 
-{ The edges rounded by the radius r: shrunk by balls, then expanded by them. Slow in three dimensions.
+{ The edges rounded by the radius r: shrunk by balls, then expanded by them. A search within a search, which takes
+  long; where tr_offset shrinks exactly, as objects of distances and minima, tr_offset_radius(tr_offset(g, -r), r) is much faster.
   Example: tr_round_edges(pob_rectangle([0, 0], [2, 1]), 0.2) AT (0.97, 0.47) < 0   // 1
   Source: [P95] 2.2.3 }
 tr_round_edges((gob/pob) g, (real) r) = OFFSET_BALL(OFFSET_BALL(g, -r), r);

@@ -36,7 +36,7 @@ fn_with((real) axis, (real) value) = ARRAY(i = 1 TO 15, IF i == fn_axis(axis) TH
 tr_project((gob/pob) g, (real) axis, (real) lo, (real) hi) = PROJECT(g AT (fn_with(axis, x16)), x16, lo, hi);
 
 { The section of the object at one value of a coordinate, x3 or 3, say.
-  Example: tr_section(pob_torus([0, 0, 0], 1, 0.4), x3, 0.4) AT (1, 0)   // 0
+  Example: tr_section(pob_torus([0, 0, 0], 1, 0.4), x3, 0.2) AT (1, 0)   // 0.12000000000000002
   Source: [P95] 2.2.6 }
 tr_section((gob/pob) g, (real) axis, (real) value) = g AT (fn_with(axis, value));
 

@@ -11,7 +11,7 @@ fn_foot((gob/pob) g) = fn_point(LEN(G)) - g/DOT(G, G)*G WHERE G = GRAD(g);
 
 { The object with hairs of that length that stand on its surface along the normals, where Gardner's noise of that frequency is at least t, from 0
   (dense) to 6 (none). They taper to their tips.
-  Example: tr_fur(pob_sphere_d([0, 0, 0], 0.8), 0.25, 12, 0.4) AT (0, 0, 0) > 0   // 1
+  Example: tr_fur(pob_sphere_d([0, 0, 0], 0.9), 0.3, 25, 0.3) AT (0, 0, 0) > 0   // 1
   Source: [P95] 4.5 }
 tr_fur((gob/pob) g, (real) length, (real) frequency, (real) t) =
   MAX(g, MIN(g + length, (pob_noise(1, frequency, 1.4) AT (fn_foot(g))) - t + 2*g/length));

@@ -19,7 +19,7 @@ tr_space_time_blend((gob/pob) g1, (gob/pob) g2, (real) a0, (real) a1, (real) a2,
   tr_bl_bounded(g1 & -x4, g2 & x4 - 1, a0, a1, a2, x4 + 10 & 10 - x4, a3);
 
 { The object as it is there from the time t1 to t2 only; time is x4.
-  Example: tr_time_segment(pob_sphere([0, 0, 0], 1), 1, 2) AT (0, 0, 0, 2)   // 0
+  Example: tr_time_segment(pob_sphere([0, 0, 0], 1), -1, 1) AT (0, 0, 0, 1)   // 0
   Source: [P95] (14) }
 tr_time_segment((gob/pob) g, (real) t1, (real) t2) = g @ (x4 - t1 & t2 - x4);
 

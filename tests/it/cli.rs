@@ -362,6 +362,7 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
         &["ball.geo", "-o", "-", "--format", "stl"],
         &["ball.geo", "-o", "-", "--format", "stl", "--precision", "single"],
     ),
+    ("sharp", HALF, &["ball.geo", "-e", HALF_BALL, "-o", "-", "--format", "stl", "--sharp"]),
     ("size", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--size", "20x30"]),
     ("camera", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--camera", "120,-10"]),
     ("projection", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--projection", "orthographic"]),
@@ -399,6 +400,9 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
 ];
 const STL: &[&str] = &["ball.geo", "-o", "-", "--format", "stl"];
 const PICTURE: &[&str] = &["ball.geo", "-o", "-", "--format", "png"];
+/// A ball with an edge.
+const HALF_BALL: &str = "gob_half = gob_ball & 0.1 - x1 - 0.3*x2;";
+const HALF: &[&str] = &["ball.geo", "-e", HALF_BALL, "-o", "-", "--format", "stl"];
 /// A plate below the ball, which throws its shadow on it.
 const PLATE: &str = "gob_plate = (x3 + 1.95 & -1.85 - x3) | gob_ball;";
 const SHADY: &[&str] = &["ball.geo", "-e", PLATE, "-o", "-", "--format", "png"];

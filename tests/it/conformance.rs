@@ -108,7 +108,7 @@ const BINARY: &[Binary] = &[
     Binary::Or,
 ];
 const TERNARY: &[Ternary] =
-    &[Ternary::Select, Ternary::Union, Ternary::Intersection, Ternary::UnionSmooth, Ternary::IntersectionSmooth];
+    &[Ternary::Select, Ternary::Union, Ternary::Intersection, Ternary::UnionSmooth, Ternary::IntersectionSmooth, Ternary::Norm];
 const NUMBERS: &[f64] = &[0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 3.0, -0.25, 1e-9, 7.5, f64::NAN, f64::INFINITY];
 const INPUTS: [Coordinate; 3] = [Coordinate(1), Coordinate(2), Coordinate(3)];
 
@@ -217,6 +217,47 @@ fn compiled_values_equal_the_walk_to_the_bit() {
         for (k, value) in out.iter().enumerate() {
             let expected = walk(&graph, root, [points[0][k], points[1][k], points[2][k]]);
             assert!(same(*value, expected), "case {case}: {value:e} instead of {expected:e} for {program:?}");
+        }
+    }
+}
+
+/// The values on a lattice, after those at its points one by one.
+fn on_a_lattice<T: yont::vm::block::Scalar>(program: &Program, axes: &[Vec<T>; 3]) -> (Vec<T>, Vec<T>) {
+    let [mut x, mut y, mut z] = [const { Vec::new() }; 3];
+    for (&c, &b) in axes[2].iter().flat_map(|c| axes[1].iter().map(move |b| (c, b))) {
+        x.extend_from_slice(&axes[0]);
+        y.resize(x.len(), b);
+        z.resize(x.len(), c);
+    }
+    let (mut one_by_one, mut together) = (vec![T::default(); x.len()], vec![T::default(); x.len()]);
+    let mut evaluator = Points::new();
+    evaluator.eval(program, &[&x, &y, &z], &mut one_by_one);
+    // The second time everything has been used before.
+    for _ in 0..2 {
+        evaluator.lattice(program, &[&axes[0], &axes[1], &axes[2]], &mut together);
+    }
+    (one_by_one, together)
+}
+
+#[test]
+fn values_on_lattices_are_those_of_their_points_to_the_bit() {
+    let mut random = Random(11);
+    let sides =
+        [[9, 9, 9], [1, 9, 4], [9, 1, 9], [2, 3, 1], [1, 1, 1], [300, 3, 2], [3, 300, 2], [2, 1, 300], [40, 5, 3]];
+    for case in 0..20_000 {
+        let mut graph = Graph::new();
+        let size = 1 + random.below(30);
+        let root = expression(&mut random, &mut graph, size);
+        let program = compile(&graph, root, random.pick(&[Demand::Value, Demand::Sign]));
+        let side = sides[if case < 200 { case % sides.len() } else { random.below(5) }];
+        let axes = side.map(|n| (0..n).map(|_| f64::from(random.between(-3.0, 3.0) as f32)).collect::<Vec<_>>());
+        let (expected, values) = on_a_lattice(&program, &axes);
+        for (k, (value, expected)) in values.iter().zip(&expected).enumerate() {
+            assert!(same(*value, *expected), "case {case}, {side:?}, {k}: {value:e}, not {expected:e}\n{program:?}");
+        }
+        let (expected, values) = on_a_lattice(&program, &axes.map(|axis| axis.iter().map(|x| *x as f32).collect()));
+        for (value, expected) in values.iter().zip(&expected) {
+            assert!(same(f64::from(*value), f64::from(*expected)), "case {case}, {side:?}, single\n{program:?}");
         }
     }
 }

@@ -40,6 +40,7 @@ fn each_kind_of_syntax_error_leads_to_its_mending() {
     expect_file!["diagnostics/syntax.txt"].assert_eq(&found);
 }
 
+#[allow(clippy::print_stderr)]
 fn as_printed() -> Option<String> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/models/as-printed.txt");
     let text = std::fs::read_to_string(path);
@@ -51,10 +52,11 @@ fn as_printed() -> Option<String> {
 
 /// The scripts of a folder of the package, by path, sorted.
 pub fn scripts(folder: &str) -> Vec<(String, String)> {
-    let entries = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)).unwrap();
-    let names: BTreeSet<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let entries = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)).expect("a folder");
+    let name = |entry: std::io::Result<std::fs::DirEntry>| entry.expect("an entry").file_name();
+    let names: BTreeSet<String> = entries.map(|entry| name(entry).into_string().expect("a plain name")).collect();
     let paths = names.into_iter().map(|name| format!("{folder}/{name}"));
-    paths.map(|path| (path.clone(), std::fs::read_to_string(path).unwrap())).collect()
+    paths.map(|path| (path.clone(), std::fs::read_to_string(path).expect("a script"))).collect()
 }
 
 /// The figure as it was printed: each of its errors of syntax, and nothing else, is told at its place.

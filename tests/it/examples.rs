@@ -139,7 +139,8 @@ fn runs_as_said(name: &str, text: &str, words: &[String]) {
 fn measures_as_said(name: &str, text: &str, words: Option<&Vec<String>>) {
     let expected = said(text).1;
     let (volume, euler) = (number_after(expected, "volume ="), number_after(expected, "Euler characteristic"));
-    if volume.or(euler).is_none() {
+    let area = number_after(expected, "the area =");
+    if volume.or(euler).or(area).is_none() {
         return;
     }
     let mut making = Making::default();
@@ -154,10 +155,16 @@ fn measures_as_said(name: &str, text: &str, words: Option<&Vec<String>>) {
     let mut view = yont::cli::make::view(&making, &defaults.view);
     view.cells = Cells::Along(making.fineness.resolution.unwrap_or(64));
     let measured = request::measure(&mut session, &view).unwrap_or_else(|e| panic!("{name}: {e:?}"));
+    let near = |what: &str, value: f64, error: f64, wanted: f64| {
+        let near = (3e-3 * wanted).max(2.0 * error);
+        assert!((value - wanted).abs() < near, "{name}: the {what} is {value} (+- {error}), not {wanted}");
+    };
+    if let (Dimension::Plane(figure), Some(area)) = (&measured.of, area) {
+        return near("area", figure.area.value, figure.area.error, area);
+    }
     let Dimension::Solid(measures, _) = measured.of else { panic!("{name} is no solid") };
     if let Some(volume) = volume {
-        let near = (3e-3 * volume).max(2.0 * measures.volume.error);
-        assert!((measures.volume.value - volume).abs() < near, "{name}: {:?}, not {volume}", measures.volume);
+        near("volume", measures.volume.value, measures.volume.error, volume);
     }
     if let Some(euler) = euler {
         assert_eq!(measures.topology.euler as f64, euler, "{name}");

@@ -108,16 +108,21 @@ fn samples(g: &mut Graph) -> Vec<(String, NodeId)> {
         let node = g.binary(op, y, inner);
         all.push((format!("{op:?} reversed"), node));
     }
-    for op in
-        [Ternary::Select, Ternary::Union, Ternary::Intersection, Ternary::UnionSmooth, Ternary::IntersectionSmooth]
-    {
+    for op in [
+        Ternary::Select,
+        Ternary::Union,
+        Ternary::Intersection,
+        Ternary::UnionSmooth,
+        Ternary::IntersectionSmooth,
+        Ternary::Norm,
+    ] {
         let shifted = g.binary(Binary::Sub, inner, x);
         for parameter in [0.0, 0.5, 1.0] {
             let parameter = g.constant(parameter);
             let node = g.ternary(op, inner, shifted, parameter);
             all.push((format!("{op:?}"), node));
         }
-        if matches!(op, Ternary::Union | Ternary::Intersection) {
+        if matches!(op, Ternary::Union | Ternary::Intersection | Ternary::Norm) {
             let half = g.constant(0.5);
             let varying = g.unary(Unary::Sin, x);
             let varying = g.binary(Binary::Mul, varying, half);

@@ -65,7 +65,7 @@ const BINARY: &[Binary] = &[
 
 /// Every primitive of three operands.
 const TERNARY: &[Ternary] =
-    &[Ternary::Select, Ternary::Union, Ternary::Intersection, Ternary::UnionSmooth, Ternary::IntersectionSmooth];
+    &[Ternary::Select, Ternary::Union, Ternary::Intersection, Ternary::UnionSmooth, Ternary::IntersectionSmooth, Ternary::Norm];
 
 /// A small random sequence (splitmix64), the same every time.
 struct Random(u64);

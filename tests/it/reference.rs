@@ -1,5 +1,5 @@
-//! The pages of `docs/` that are made, not written: the reference of built-in functions from their table, each example run, and the
-//! text of the gallery from the first comments of the examples. `UPDATE_EXPECT=1 cargo test --test it reference::` makes them anew.
+//! The pages of `docs/` that are made, not written: the reference of built-in functions from their table, each example run, that of the
+//! library from its comments, and the text of the gallery from the first comments of the examples. `UPDATE_EXPECT=1 cargo test --test it reference::` makes them anew.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -10,6 +10,7 @@ use yont::builtins::{self, Builtin};
 use yont::host::Memory;
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
+use yont::model::library::{Entry, Library};
 use yont::model::{Event, Session};
 use yont::syntax::Mode;
 
@@ -71,6 +72,40 @@ fn the_page_of_built_in_functions_says_what_the_table_says() {
         body.push_str(&entry(builtin));
     }
     expect_file!["../../docs/builtins.md"].assert_eq(&format!("{page}\n{}\n", body.trim_end()));
+}
+
+/// An entry of the library: what its comment says.
+fn library_entry(entry: &Entry) -> String {
+    let (example, value) = &entry.example;
+    let source = if entry.source.is_empty() { String::new() } else { format!("Source: {}\n\n", plain(&entry.source)) };
+    let (signature, text) = (&entry.signature, plain(&entry.text));
+    format!("### `{signature}`\n\n{text}\n\n```geo\n{example};   // {value}\n```\n\n{source}")
+}
+
+#[test]
+fn the_page_of_the_library_says_what_its_comments_say() {
+    let mut page = String::from(
+        "# The library\n\nMade from the comments of `stdlib/`; every example has been run. Every session knows these names; those of the user's own \
+         win over\nthem, and `--no-prelude` starts without any. Angles are radians, points and vectors are arrays, and all objects are positive \
+         inside.\n`yont doc NAME` and `NAME?` at the prompt show the same, `NAME??` the definition. The pictures show the examples, \
+         made by `.ci/library`.\n\n",
+    );
+    let library = Library::shared();
+    let mut body = String::new();
+    for (heading, names) in library.subjects() {
+        let entries: Vec<Entry> = names.iter().filter_map(|name| library.entry(name)).collect();
+        let listed: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+        writeln!(page, "- [{heading}](#{}): {}", anchor(&heading.replace(',', "")), listed.join(" "))
+            .expect("a text has room");
+        write!(body, "## {heading}\n\n").expect("a text has room");
+        let stem = entries.first().map(|entry| entry.file.rsplit(['/', '.']).nth(1).unwrap_or_default().to_owned());
+        let picture = format!("pictures/library/{}.png", stem.unwrap_or_default());
+        if Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(&picture).exists() {
+            write!(body, "![{heading}]({picture})\n\n").expect("a text has room");
+        }
+        body.extend(entries.iter().map(library_entry));
+    }
+    expect_file!["../../docs/library.md"].assert_eq(&format!("{page}\n{}\n", body.trim_end()));
 }
 
 /// The paragraphs of an example's first comment up to `Shows:`, and its command lines.

@@ -91,6 +91,7 @@ impl Rules<'_> {
                 let (da, db) = (self.slope(*a, by), self.slope(*b, by));
                 self.select(*condition, da, db)
             }
+            Node::Ternary(Ternary::Norm, operands) => self.norm(*operands, node, by),
             Node::Ternary(op, operands) => self.set_operation(*op, *operands, by),
             Node::Leaf(leaf, arguments) => self.leaf(leaf, arguments, by),
             Node::Region(region, output, arguments) => self.region(&region.0, *output as usize, arguments, node, by),
@@ -327,6 +328,47 @@ impl Rules<'_> {
             self.times(factor, Some(d))
         });
         self.plus(by_base, by_exponent)
+    }
+}
+
+impl Rules<'_> {
+    /// `v^(1-p) (|a|^(p-1) d|a| + |b|^(p-1) d|b|)` with the powers taken of quotients, and for a varying p
+    /// `v/p (A log(|a|/v) + B log(|b|/v)) dp` with `A = (|a|/v)^p`; 0 where the norm is 0. That of the larger or smaller magnitude for an
+    /// infinite p.
+    fn norm(&mut self, [a, b, p]: [NodeId; 3], value: NodeId, by: Coordinate) -> Slope {
+        let (da, db, dp) = (self.slope(a, by), self.slope(b, by), self.slope(p, by));
+        let (x, y) = (self.graph.unary(Unary::Abs, a), self.graph.unary(Unary::Abs, b));
+        let mut magnitude = |o: NodeId, size: NodeId, d: Slope| match d {
+            Some(d) if size != o => self.unary(Unary::Abs, o, size, d),
+            d => d,
+        };
+        let (da, db) = (magnitude(a, x, da), magnitude(b, y, db));
+        if self.graph.number(p).is_some_and(f64::is_infinite) {
+            let first = if self.graph.number(p) == Some(f64::INFINITY) { (y, x) } else { (x, y) };
+            let first = self.graph.binary(Binary::LessEqual, first.0, first.1);
+            return self.select(first, da, db);
+        }
+        let (r, s) = (self.graph.binary(Binary::Div, x, value), self.graph.binary(Binary::Div, y, value));
+        let one = self.graph.constant(1.0);
+        let less = self.graph.binary(Binary::Sub, p, one);
+        let (u, v) = (self.graph.binary(Binary::Pow, r, less), self.graph.binary(Binary::Pow, s, less));
+        let (left, right) = (self.times(Some(u), da), self.times(Some(v), db));
+        let mut sum = self.plus(left, right);
+        if dp.is_some() {
+            let mut part = |r: NodeId| {
+                let power = self.graph.binary(Binary::Pow, r, p);
+                let log = self.graph.unary(Unary::Log, r);
+                let product = self.graph.binary(Binary::Mul, power, log);
+                self.select(power, Some(product), None)
+            };
+            let (left, right) = (part(r), part(s));
+            let factor = self.plus(left, right);
+            let ratio = self.graph.binary(Binary::Div, value, p);
+            let factor = self.times(Some(ratio), factor);
+            let by_p = self.times(factor, dp);
+            sum = self.plus(sum, by_p);
+        }
+        self.select(value, sum, None)
     }
 }
 

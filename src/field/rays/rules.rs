@@ -75,6 +75,11 @@ impl Rules<'_> {
             (Node::Binary(op, ..), [a, b]) => self.binary(*op, a, b),
             (Node::Ternary(Ternary::Select, _), [condition, a, b]) => self.select(condition, a, b),
             (Node::Ternary(op, _), [a, b, c]) => self.join(*op, a, b, c),
+            (Node::Leaf(leaf, _), _) if leaf.0.is_ray_linear() => {
+                let degree = common(&operands.iter().collect::<Vec<_>>()).ok_or(Why::Unlike)?;
+                let at: Vec<NodeId> = operands.iter().map(|o| self.sums.coefficient(o)).collect();
+                Ok(RayForm::one(degree, self.sums.graph.leaf(leaf.clone(), &at)))
+            }
             (Node::Leaf(..), _) => Err(Why::Data),
             _ => Err(Why::Region),
         }

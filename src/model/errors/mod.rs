@@ -1,9 +1,11 @@
 //! The messages of this room: what was found in the user's words, and what to do. Computes nothing.
 
 mod names;
+mod star;
 mod values;
 
 pub use names::*;
+pub use star::*;
 pub use values::*;
 
 /// `n things`, `1 thing`.

@@ -198,6 +198,13 @@ pub fn wrong_builtin_kind(builtin: &Builtin, value: &Value, wanted: &str, span: 
         .fact(builtin.doc)
 }
 
+/// `PNORM(a, b, 0)`
+pub fn no_zero_norm(p: Span) -> Diagnostic {
+    Diagnostic::error("zero-norm", "there is no p-norm with p = 0")
+        .at(p, "is 0")
+        .help("p > 0 joins values above the largest, p < 0 below the smallest; with p = INFINITY or -INFINITY it is just that one")
+}
+
 /// A call of something that is neither a function nor an object.
 pub fn not_callable(name: &str, value: &Value, span: Span) -> Diagnostic {
     let told = Diagnostic::error(

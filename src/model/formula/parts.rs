@@ -129,7 +129,6 @@ impl<'a> Writer<'a> {
     fn part(&mut self, id: NodeId) -> Result<Part, String> {
         let graph = self.graph;
         Ok(match graph.node(id) {
-            Node::Constant(value) if value.get().is_infinite() => return Err("a part of it is infinite".into()),
             Node::Constant(value) => {
                 let text = number(value.get());
                 let level = if text.starts_with('-') { Level::Sign } else { Level::Postfix };
@@ -252,6 +251,9 @@ impl<'a> Writer<'a> {
         if op == Ternary::Select {
             return self.choice(a, b, c);
         }
+        if op == Ternary::Norm {
+            return self.call("PNORM(", &[a, b, c]);
+        }
         let union = matches!(op, Ternary::Union | Ternary::UnionSmooth);
         if in_force(op, self.graph.number(c)).is_none_or(|system| Some(system) != self.main) {
             return self.written_out(op, union, (a, b), c);
@@ -314,5 +316,9 @@ fn name_of(meaning: impl Fn(Meaning) -> bool) -> &'static str {
 
 /// A finite number in the shortest digits that read back the same; what is undefined as an expression that is.
 pub(super) fn number(value: f64) -> String {
-    if value.is_nan() { "(IF 0 THEN 0)".into() } else { format!("{value:?}").trim_end_matches(".0").to_owned() }
+    if value.is_nan() {
+        "(IF 0 THEN 0)".into()
+    } else if value.is_infinite() {
+        if value > 0.0 { "INFINITY" } else { "-INFINITY" }.into()
+    } else { format!("{value:?}").trim_end_matches(".0").to_owned() }
 }

@@ -17,6 +17,8 @@ pub static FILES: &[(&str, &str)] = files![
     "shapes/figures.geo",
     "shapes/lattices.geo",
     "shapes/surfaces.geo",
+    "shapes/lp.geo",
+    "shapes/star.geo",
     "fields/skeletons.geo",
     "fields/noise.geo",
     "operations/sets.geo",

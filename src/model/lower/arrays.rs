@@ -139,6 +139,39 @@ impl Lower<'_> {
         Ok(sum.unwrap_or(Scalar::Number(0.0)))
     }
 
+    /// `PNORM(a, b, ..., p)`, or `PNORM(array, p)`: from left to right.
+    pub(super) fn p_norm(&mut self, builtin: &Builtin, arguments: &[Expr], span: Span) -> Lowered<Value> {
+        let mut values = Vec::with_capacity(arguments.len());
+        for e in arguments {
+            values.push(self.expr(e)?);
+        }
+        let Some(p) = values.pop() else { return Err(errors::wrong_builtin_count(builtin, 0, span).into()) };
+        let mut places: Vec<Span> = arguments.iter().map(|e| e.span).collect();
+        let p_at = places.pop().unwrap_or(span);
+        let Value::Scalar(p) = p else { return Err(errors::wrong_builtin_kind(builtin, &p, "a number", p_at).into()) };
+        if p == Scalar::Number(0.0) {
+            return Err(errors::no_zero_norm(p_at).into());
+        }
+        if let [one] = &values[..] {
+            values = match one {
+                Value::Array(array) if !array.items().is_empty() => array.items().to_vec(),
+                other => return Err(errors::wrong_builtin_kind(builtin, other, "an array", places[0]).into()),
+            };
+            places = vec![places[0]; values.len()];
+        }
+        let mut norm: Option<Scalar> = None;
+        for (value, at) in values.iter().zip(places) {
+            let Value::Scalar(next) = *value else {
+                return Err(errors::wrong_builtin_kind(builtin, value, "a number", at).into());
+            };
+            norm = Some(match norm {
+                None => self.scalars().unary(Unary::Abs, next),
+                Some(before) => self.scalars().ternary(Ternary::Norm, before, next, p),
+            });
+        }
+        norm.map(Value::Scalar).ok_or_else(|| errors::wrong_builtin_count(builtin, 0, span).into())
+    }
+
     fn cross(&mut self, a: &Array, b: &Array, arguments: &[Expr], span: Span) -> Lowered<Value> {
         for (array, e) in [a, b].into_iter().zip(arguments) {
             if array.items().len() != 3 {

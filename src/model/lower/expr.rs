@@ -29,6 +29,7 @@ impl Lower<'_> {
         match &e.kind {
             ExprKind::Number(value) => Ok(Value::number(*value)),
             ExprKind::Pi => Ok(Value::number(std::f64::consts::PI)),
+            ExprKind::Infinity => Ok(Value::number(f64::INFINITY)),
             ExprKind::Text(text) => Ok(Value::Text(text.clone())),
             ExprKind::Coordinate(c) => Ok(self.coordinate(*c)),
             ExprKind::Name(name) => self.name(name, e.span),

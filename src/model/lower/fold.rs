@@ -110,6 +110,8 @@ impl Lower<'_> {
             Special::Join | Special::Len | Special::Dot | Special::Cross | Special::Norm => {
                 return self.vectors(form, builtin, arguments, span);
             }
+            Special::Star => return self.star(builtin, arguments, span),
+            Special::PNorm => return self.p_norm(builtin, arguments, span),
             Special::Random => return self.random(builtin, arguments),
             Special::Diff => return self.diff(&arguments[0], &arguments[1]),
             Special::Grad => return self.grad(&arguments[0], span),

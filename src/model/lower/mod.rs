@@ -12,6 +12,7 @@ mod extremum;
 mod fold;
 mod operators;
 mod repeat;
+mod star;
 mod statement;
 
 use std::sync::Arc;

@@ -126,6 +126,8 @@ impl Oracle {
                 let both = |a: Value, b: &Value| pair(a, b.clone(), &|a, b| Ok(length(a, b)));
                 rest.iter().try_fold(both(first.clone(), second)?, both)
             }
+            ("PNORM", [Value::Array(list), p]) => p_norm(list, p),
+            ("PNORM", [list @ .., p]) => p_norm(list, p),
             ("LEN", [Value::Array(list)]) => Ok(Value::Number(list.len() as f64)),
             ("JOIN", [Value::Array(a), Value::Array(b)]) => Ok(Value::Array(a.iter().chain(b).cloned().collect())),
             ("DOT", [a, b]) => {
@@ -154,6 +156,7 @@ const SPECIAL: &[&str] = &[
     "MAX",
     "CLAMP",
     "HYPOT",
+    "PNORM",
     "LERP",
     "MIX",
     "SMOOTHSTEP",
@@ -163,6 +166,23 @@ const SPECIAL: &[&str] = &[
     "NORM",
     "CROSS",
 ];
+
+/// The p-norm of all the values at once, over logarithms: each power relative to that of the value that rules the sum.
+fn p_norm(list: &[Value], p: &Value) -> Answer {
+    let p = number(p.clone())?;
+    let list: Answer<Vec<f64>> = list.iter().cloned().map(number).collect();
+    let list: Vec<f64> = list?.into_iter().map(f64::abs).collect();
+    if p == 0.0 || p.is_nan() || list.iter().any(|v| v.is_nan()) {
+        return Ok(Value::Number(f64::NAN));
+    }
+    let pick = if p > 0.0 { f64::max } else { f64::min };
+    let ruler = list.iter().copied().reduce(pick).unwrap_or(0.0);
+    if p.is_infinite() || ruler == 0.0 || ruler.is_infinite() {
+        return Ok(Value::Number(ruler));
+    }
+    let sum: f64 = list.iter().map(|v| (p * (v.ln() - ruler.ln())).exp()).sum();
+    Ok(Value::Number(ruler * (sum.ln() / p).exp()))
+}
 
 fn numbers(value: Value) -> Answer<Vec<f64>> {
     match value {

@@ -12,6 +12,7 @@ impl Oracle {
             ExprKind::Number(n) => Ok(Value::Number(*n)),
             ExprKind::Text(t) => Ok(Value::Text(t.to_string())),
             ExprKind::Pi => Ok(Value::Number(std::f64::consts::PI)),
+            ExprKind::Infinity => Ok(Value::Number(f64::INFINITY)),
             ExprKind::Coordinate(c) => match point {
                 Some(p) => Ok(Value::Number(p[usize::from(*c) - 1])),
                 None => Err(Beyond::NeedsPoint),

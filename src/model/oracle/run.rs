@@ -240,7 +240,7 @@ fn reads(e: &Expr, name: &str) -> bool {
     let any = |list: &[Expr]| list.iter().any(|e| reads(e, name));
     match &e.kind {
         ExprKind::Name(n) => &**n == name,
-        ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Coordinate(_) | ExprKind::Pi => false,
+        ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Coordinate(_) | ExprKind::Pi | ExprKind::Infinity => false,
         ExprKind::Array(list) => any(list),
         ExprKind::Paren(e) | ExprKind::Prefix { operand: e, .. } | ExprKind::Setting { value: e, .. } => reads(e, name),
         ExprKind::Chain { first, rest } => reads(first, name) || rest.iter().any(|(_, _, e)| reads(e, name)),

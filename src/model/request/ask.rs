@@ -8,7 +8,7 @@ use crate::number::{Algebra, Binary};
 use crate::surface::figure::measure as measure_figure;
 use crate::surface::line::intervals;
 use crate::surface::marching::SurfaceError;
-use crate::surface::measure::{MeasureError, measure as measure_solid};
+use crate::surface::measure::{MeasureError, measure_as as measure_solid};
 use crate::vm::Demand;
 
 use super::fields::{Sampled, Sampling};
@@ -115,7 +115,7 @@ fn measure_subject(session: &Session, view: &View, subject: &Subject) -> Result<
     } else {
         let grid = subject.grid(view.cells, limits)?;
         let (of, report, is_settled) = if subject.axes.len() == 3 {
-            let measures = measure_solid(&shape, &grid, limits, interrupt).map_err(|e| unmeasured(&e))?;
+            let measures = measure_solid(&shape, &grid, view.sharp, limits, interrupt).map_err(|e| unmeasured(&e))?;
             let (report, is_settled) = (measures.report.clone(), measures.is_settled);
             let triangles = measures.topology.triangles;
             ((triangles > 0).then(|| Dimension::Solid(Box::new(measures), triangles)), report, is_settled)

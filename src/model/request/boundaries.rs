@@ -12,9 +12,10 @@ use crate::picture::palette::Palette;
 use crate::surface::check::{Topology, check};
 use crate::surface::contour::outlines;
 use crate::surface::grid::Grid;
-use crate::surface::marching::{Extraction, Report, SurfaceError, extract};
+use crate::surface::marching::{Extraction, Report, SurfaceError};
 use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
+use crate::surface::sharp::{Plain, Sharpened, extract_as};
 use crate::vm::{Demand, Shape};
 
 use super::PictureOptions;
@@ -217,11 +218,16 @@ impl<'a> Making<'a> {
         moment: f64,
     ) -> Result<(Option<Mesh>, String, Report), Diagnostic> {
         let shape = self.subject.at(shape, moment);
+<<<<<<< HEAD
         if let Some((mesh, line, report)) = self.star_mesh(node, &shape, grid)? {
             self.say(told::of_report(self.subject, &report));
             return Ok((Some(mesh), line, report));
         }
         let extraction = extract(&shape, grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
+=======
+        let extraction =
+            extract_as(&shape, grid, self.options.view.sharp, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
+>>>>>>> main
         if extraction.mesh.is_empty() {
             return Ok((None, String::new(), extraction.report));
         }
@@ -313,12 +319,21 @@ pub(super) fn unmade(error: SurfaceError) -> Diagnostic {
 fn mesh_line(extraction: &Extraction, topology: &Topology) -> String {
     let Counters { points, boxes, regions, .. } = extraction.report.counters;
     format!(
-        "{} triangles, Euler characteristic {}, {points} points and {boxes} boxes evaluated of {} samples{}",
+        "{} triangles, Euler characteristic {}, {points} points and {boxes} boxes evaluated of {} samples{}{}",
         topology.triangles,
         topology.euler,
         extraction.report.samples,
-        super::make::regions_line(regions)
+        super::make::regions_line(regions),
+        extraction.report.sharpened.as_ref().map(creases_line).unwrap_or_default()
     )
+}
+
+/// What became of the cells that creases cross.
+fn creases_line(sharpened: &Sharpened) -> String {
+    let reasons = Plain::ALL.iter().zip(sharpened.plain).filter(|(_, count)| *count > 0);
+    let reasons: Vec<String> = reasons.map(|(reason, count)| format!("{count}: {}", reason.told())).collect();
+    let why = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) };
+    format!(", {} cells sharp, {} left plain{why}", sharpened.cells, sharpened.left())
 }
 
 fn write_meshes(

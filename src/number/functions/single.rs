@@ -1,6 +1,7 @@
-//! Shorter kernels for single precision, computed in doubles and rounded once: within 0.52 units in the last place of a single.
+//! Shorter kernels for single precision. Those of angles and of base 10 are computed in doubles and rounded once, within 0.52 units in the
+//! last place of a single; the others in singles throughout, within 1.
 
-use super::double::{nearest, power_of_two};
+use super::double::nearest;
 use super::exponential::{at_the_ends, split_normal};
 
 /// pi/2 in two parts, the first of 33 bits.
@@ -54,24 +55,54 @@ pub fn tan(angle: f32) -> f32 {
     rounded(if angle == 0.0 { f64::from(angle) } else { value })
 }
 
-/// e^x.
+/// 1.5 * 2^23: adding it rounds to a whole number, which then stands in the lowest bits.
+const WHOLE: f32 = 12_582_912.0;
+
+/// ln 2 in two parts, the first of 10 bits, so that its multiples by exponents are exact.
+const LN2: (f32, f32) = (0.693_359_375, -2.121_944_4e-4);
+
+/// `2^k` for |k| <= 126.
 #[inline(always)]
-pub fn exp(x: f32) -> f32 {
-    let x = f64::from(x);
-    let x = if x > 200.0 { 200.0 } else { x };
-    let x = if x < -200.0 { -200.0 } else { x };
-    let (n, k) = nearest(x * std::f64::consts::LOG2_E);
-    let r = x - n * std::f64::consts::LN_2;
-    let p = 1.0 / 720.0 + r * (1.0 / 5040.0 + r * (1.0 / 40320.0));
-    let p = 1.0 / 6.0 + r * (1.0 / 24.0 + r * (1.0 / 120.0 + r * p));
-    let value = 1.0 + r * (1.0 + r * (0.5 + r * p));
-    rounded(value * power_of_two(k))
+fn power_of_two_single(k: u32) -> f32 {
+    f32::from_bits(k.wrapping_add(127) << 23)
 }
 
-/// The natural logarithm.
+/// e^x in singles throughout, within 1 unit in the last place; exp(0) = 1. The coefficients are those of the Cephes library.
+#[inline(always)]
+pub fn exp(x: f32) -> f32 {
+    let x = if x > 90.0 { 90.0 } else { x };
+    let x = if x < -110.0 { -110.0 } else { x };
+    let shifted = x * std::f32::consts::LOG2_E + WHOLE;
+    let (n, k) = (shifted - WHOLE, shifted.to_bits().wrapping_sub(WHOLE.to_bits()));
+    let r = (x - n * LN2.0) - n * LN2.1;
+    let p = 8.333_452e-3 + r * (1.398_199_9e-3 + r * 1.987_569_1e-4);
+    let p = 0.5 + r * (1.666_666_5e-1 + r * (4.166_579_6e-2 + r * p));
+    let y = 1.0 + (r + r * r * p);
+    // In two steps, so that it is rounded once also among the subnormal numbers.
+    let half = (k.wrapping_add(512) >> 1).wrapping_sub(256);
+    y * power_of_two_single(half) * power_of_two_single(k.wrapping_sub(half))
+}
+
+/// The natural logarithm in singles throughout, within 0.9 units in the last place; log(1) = 0. Computed as FDLIBM does.
 #[inline(always)]
 pub fn log(x: f32) -> f32 {
-    rounded(log_double(x))
+    /// The bits of sqrt(1/2): mantissas are taken from there to sqrt 2.
+    const LEAST: u32 = 0x3f35_04f3;
+    let small = x < f32::MIN_POSITIVE;
+    let shifted = (if small { x * 16_777_216.0 } else { x }).to_bits().wrapping_add(0x3f80_0000 - LEAST);
+    let f = f32::from_bits((shifted & 0x007f_ffff).wrapping_add(LEAST)) - 1.0;
+    // The exponent's bits below those of 2^23 make it a single without a conversion.
+    let k = f32::from_bits((shifted >> 23) | 0x4b00_0000) - (8_388_608.0 + 127.0);
+    let k = k - if small { 24.0 } else { 0.0 };
+    let s = f / (2.0 + f);
+    let z = s * s;
+    let w = z * z;
+    let rest = z * (0.666_666_6 + w * 0.284_987_87) + w * (0.400_009_72 + w * 0.242_790_79);
+    let half = 0.5 * f * f;
+    let value = s * (half + rest) + k * 9.058_000_6e-6 - half + f + k * 0.693_138_1;
+    let value = if x > 0.0 { value } else { f32::NAN };
+    let value = if x == 0.0 { f32::NEG_INFINITY } else { value };
+    if x == f32::INFINITY { x } else { value }
 }
 
 /// The logarithm to base 10.

@@ -77,8 +77,8 @@ pub fn mapped_twice(name: &Ident, first: Span) -> Diagnostic {
 }
 
 /// `PI = 3`
-pub fn defined_pi(name: &Ident) -> Diagnostic {
-    Diagnostic::error("reserved-name", format!("`{}` is the number 3.14159... and cannot be defined", name.name))
+pub fn defined_constant(name: &Ident, is: &str) -> Diagnostic {
+    Diagnostic::error("reserved-name", format!("`{}` is {is} and cannot be defined", name.name))
         .at(name.span, "")
         .help("choose another name")
 }

@@ -79,7 +79,7 @@ pub fn read_names(place: Place<'_>, sure: usize) -> (Vec<Ident>, Option<Span>) {
 }
 
 fn is_name(word: &str) -> bool {
-    let special = ["PI", "STEP"].iter().any(|w| w.eq_ignore_ascii_case(word));
+    let special = ["PI", "INFINITY", "STEP"].iter().any(|w| w.eq_ignore_ascii_case(word));
     !special && !is_reserved(word) && coordinate_digits(word).is_none()
 }
 

@@ -152,6 +152,7 @@ impl<'t> Builder<'t> {
         match coordinate_digits(word) {
             Some(digits) => ExprKind::Coordinate(self.coordinate(digits, pair)),
             None if word.eq_ignore_ascii_case("PI") => ExprKind::Pi,
+            None if word.eq_ignore_ascii_case("INFINITY") => ExprKind::Infinity,
             None => ExprKind::Name(Name::from(word)),
         }
     }

@@ -147,7 +147,7 @@ impl<'t> Builder<'t> {
         let Some(name) = inner.next().map(|name| self.ident(&name)) else {
             return StatementKind::failed();
         };
-        self.not_pi(&name);
+        self.not_constant(&name);
         let mut parameters = None;
         let mut body = Body::Block(Vec::new());
         let mut range = None;
@@ -167,9 +167,10 @@ impl<'t> Builder<'t> {
         StatementKind::Define { name, parameters, body, range }
     }
 
-    fn not_pi(&mut self, name: &Ident) {
-        if name.name.eq_ignore_ascii_case("PI") {
-            self.diagnostics.push(explain::defined_pi(name));
+    fn not_constant(&mut self, name: &Ident) {
+        let value = [("PI", "the number 3.14159..."), ("INFINITY", "beyond all numbers")];
+        if let Some((_, is)) = value.iter().find(|(word, _)| name.name.eq_ignore_ascii_case(word)) {
+            self.diagnostics.push(explain::defined_constant(name, is));
         }
     }
 
@@ -182,7 +183,7 @@ impl<'t> Builder<'t> {
                     Rule::kind => kind = self.kind(word),
                     _ => {
                         let name = self.ident(&word);
-                        self.not_pi(&name);
+                        self.not_constant(&name);
                         if let Some(first) = parameters.iter().find(|p| p.name.name == name.name) {
                             self.diagnostics.push(explain::parameter_twice(&name, first.name.span));
                         }

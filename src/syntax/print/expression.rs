@@ -207,6 +207,7 @@ impl<'t> Writer<'t> {
             ExprKind::Coordinate(n) => self.push(&format!("x{n}")),
             ExprKind::Name(name) => self.push(name),
             ExprKind::Pi => self.push("PI"),
+            ExprKind::Infinity => self.push("INFINITY"),
             ExprKind::Array(items) => self.bracketed("[", items, "]"),
             ExprKind::Paren(inner) => {
                 self.push("(");

@@ -76,6 +76,7 @@ fn parameter(random: &mut Random, op: Ternary) -> Interval {
     let (lo, hi) = match op {
         Ternary::Union | Ternary::Intersection => (-1.0, 1.0),
         Ternary::UnionSmooth | Ternary::IntersectionSmooth => (0.0, 4.0),
+        Ternary::Norm => (-3.0, 12.0),
         Ternary::Select => return range(random),
     };
     let (a, b) = (random.within(lo, hi), random.within(lo, hi));

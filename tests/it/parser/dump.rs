@@ -135,6 +135,7 @@ pub fn expr(e: &Expr) -> String {
         ExprKind::Coordinate(n) => format!("x{n}"),
         ExprKind::Name(n) => n.to_string(),
         ExprKind::Pi => "pi".to_owned(),
+        ExprKind::Infinity => "infinity".to_owned(),
         ExprKind::Array(items) => format!("[{}]", list(items, expr).trim()),
         ExprKind::Paren(inner) => format!("(paren {})", expr(inner)),
         ExprKind::Chain { first, rest } => {
