@@ -33,13 +33,10 @@ pub fn view(making: &Making, default: &View) -> View {
             .collect(),
         cells,
         precision: making.fineness.precision.into(),
-<<<<<<< HEAD
         route: making.way.route.as_deref().and_then(Route::from_name).unwrap_or(default.route),
         guide: making.way.guide.clone().unwrap_or_else(|| default.guide.clone()),
         centre: making.way.center.as_ref().map(|centre| centre.0.clone()),
-=======
         sharp: making.fineness.sharp.map_or(default.sharp, Switch::is_on),
->>>>>>> main
     }
 }
 

@@ -50,7 +50,6 @@ pub const SETTINGS: &[Setting] = &[
         }),
     },
     Setting {
-<<<<<<< HEAD
         name: "route",
         form: "\"star\"",
         doc: "how a boundary is found: auto, star, cubes",
@@ -61,12 +60,12 @@ pub const SETTINGS: &[Setting] = &[
         form: "\"sphere:5\"",
         doc: "the guide shape of the star route: following, sphere:5, icosahedron:5, octahedron:5, cube:5, tetrahedron:5, polygon:64, a file.obj",
         takes: Takes::Text(|v, o| Choice::read(v).map(|guide| o.view.guide = guide).is_ok()),
-=======
+    },
+    Setting {
         name: "sharp",
         form: "1",
         doc: "1 or 0: whether meshes have creases and corners as they are, not beveled",
         takes: Takes::Number(|v, o| switch(v, &mut o.view.sharp)),
->>>>>>> main
     },
     Setting {
         name: "size",

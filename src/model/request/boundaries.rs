@@ -26,6 +26,7 @@ use super::paint::colours_of;
 use super::pictures::Artist;
 use super::subject::{Member, Place, Subject};
 use super::told::{self, empty};
+use super::way::Route;
 
 /// Pixels along each side of the picture in a 3MF file.
 const THUMBNAIL: usize = 256;
@@ -218,16 +219,14 @@ impl<'a> Making<'a> {
         moment: f64,
     ) -> Result<(Option<Mesh>, String, Report), Diagnostic> {
         let shape = self.subject.at(shape, moment);
-<<<<<<< HEAD
-        if let Some((mesh, line, report)) = self.star_mesh(node, &shape, grid)? {
+        // Creases as they are come from the search, which knows where they lie.
+        let searched = self.options.view.sharp && self.options.view.route == Route::Auto;
+        if !searched && let Some((mesh, line, report)) = self.star_mesh(node, &shape, grid)? {
             self.say(told::of_report(self.subject, &report));
             return Ok((Some(mesh), line, report));
         }
-        let extraction = extract(&shape, grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
-=======
         let extraction =
             extract_as(&shape, grid, self.options.view.sharp, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
->>>>>>> main
         if extraction.mesh.is_empty() {
             return Ok((None, String::new(), extraction.report));
         }

@@ -62,17 +62,14 @@ pub struct View {
     pub cells: Cells,
     /// The numbers that points are computed with.
     pub precision: Precision,
-<<<<<<< HEAD
     /// How the boundary is found.
     pub route: Route,
     /// The guide shape of the star route.
     pub guide: Choice,
     /// The centre of the star route, a number for each axis. Wins over the script's.
     pub centre: Option<Vec<f64>>,
-=======
     /// Whether creases and corners are in meshes as they are, not beveled.
     pub sharp: bool,
->>>>>>> main
 }
 
 impl Default for View {
@@ -84,13 +81,10 @@ impl Default for View {
             bounds: Vec::new(),
             cells: Cells::Along(128),
             precision: Precision::Double,
-<<<<<<< HEAD
             route: Route::Auto,
             guide: Choice::Following,
             centre: None,
-=======
             sharp: false,
->>>>>>> main
         }
     }
 }
