@@ -397,6 +397,7 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("images", &["ball.geo"], &["ball.geo", "--images", "half"]),
     ("no_config", MOVING, &["growing.geo", "-o", "-", "--format", "gif", "--size", "32x32", "--no-config"]),
     ("strict", &["-e", "r = 1; q = r; r = 2;"], &["-e", "r = 1; q = r; r = 2;", "-W"]),
+    ("no_prelude", &["-e", "rel_inside(x1, [1]);"], &["-e", "rel_inside(x1, [1]);", "--no-prelude"]),
 ];
 const STL: &[&str] = &["ball.geo", "-o", "-", "--format", "stl"];
 const PICTURE: &[&str] = &["ball.geo", "-o", "-", "--format", "png"];

@@ -135,7 +135,8 @@ pub const OPERATIONS: &[Case] = &[
     ),
     ("tr_pipe(C, D, 0.25)", |p| 0.25 - norm(&[lengths(p).0, lengths(p).1]), TINY),
     ("tr_offset(A, 0.4)", |p| pair(p).0 + 0.4, TINY),
-    ("tr_offset_normal(C, 0.4)", |p| lengths(p).0 + 0.4, 1e-9),
+    // Nearer to the centre than 0.4, the point is moved beyond it.
+    ("tr_offset_normal(C, 0.4)", |p| 1.0 - (0.6 - lengths(p).0).abs(), 1e-9),
     ("tr_offset_normal(pob_ellipsoid([0, 0, 0], 1.5, 1, 0.5), -0.2)", |p| moved(ellipsoid, -0.2, p), SMALL),
     ("tr_offset_normal(pob_ellipsoid([0, 0, 0], 1.5, 1, 0.5), 0.1*x3)", |p| moved(ellipsoid, 0.1 * p[2], p), SMALL),
     ("tr_relief(pob_ellipsoid([0, 0, 0], 1.5, 1, 0.5), 0.2*SIN(x1))", |p| moved(ellipsoid, 0.2 * p[0].sin(), p), SMALL),
