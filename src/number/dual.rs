@@ -105,6 +105,20 @@ impl Unary {
         }
     }
 
+    /// [`Unary::slope`] for every number of a block, by their values; the same bits. With a constant `self` it is vector code.
+    #[inline(always)]
+    pub fn slopes_map(self, a: &[f64], values: &[f64], out: &mut [f64]) {
+        match self {
+            // Rare angles are looked for by the block, not by the number.
+            Self::Sin => Self::Cos.map(a, out),
+            Self::Cos => {
+                Self::Sin.map(a, out);
+                out.iter_mut().for_each(|slope| *slope = -*slope);
+            }
+            _ => a.iter().zip(values).zip(out).for_each(|((&a, &value), out)| *out = self.slope(a, value)),
+        }
+    }
+
     /// The operation with derivatives.
     #[inline(always)]
     #[must_use]

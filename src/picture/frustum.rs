@@ -58,6 +58,11 @@ impl Lattice for Frustum {
         [4 * self.scene.tile, 4 * self.scene.tile, self.cells]
     }
 
+    /// A ray seen whole is as good as the whole space, unless it runs along an axis.
+    fn part(&self) -> [usize; 3] {
+        [4 * self.scene.tile, 4 * self.scene.tile, 4 * LEAF_DEPTH]
+    }
+
     fn tell(&self, to: &mut Digest) -> bool {
         to.shown(&self.scene);
         true

@@ -24,6 +24,7 @@ pub mod palette;
 pub mod plot;
 pub mod raycast;
 pub mod rays;
+mod scale;
 mod search;
 pub mod shade;
 pub mod shadow;

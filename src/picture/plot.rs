@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::image::Image;
 use super::paint::Paint;
 use super::palette::{Palette, bright, encode, linear};
+use super::scale::Scale;
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
 use crate::reuse::Digest;
@@ -109,7 +110,7 @@ fn plotted(
             let places = pixels.places();
             let tasks = tasks(shape, &pixels, &places, interrupt)?;
             let mut image = Image { width: size[0], height: size[1], rgba: vec![0; 4 * size[0] * size[1]] };
-            tasks.lay(&mut image.rgba, 4, |row, out| row.paint(out));
+            tasks.lay(&mut image.rgba, 4, |row, out| row.put([255; 4], [0, 0, 0, 255], out));
             Ok(Plot { image, met: tasks.met(), counters: tasks.counters })
         }
         Fill::Solid(palette) => {
@@ -270,11 +271,12 @@ impl Lattice for Pixels {
     }
 
     fn leaf(&self) -> [usize; 3] {
-        [16, 16, 1]
+        [LEAF, LEAF, 1]
     }
 
     fn task(&self) -> [usize; 3] {
-        [BAND, BAND, 1]
+        let side = if self.size.iter().any(|&n| n > LARGE) { 4 * BAND } else { BAND };
+        [side, side, 1]
     }
 
     fn tell(&self, to: &mut Digest) -> bool {
@@ -289,8 +291,14 @@ impl Lattice for Pixels {
     }
 }
 
-/// Samples along each side of a task.
+/// Samples along each side of a smallest box: the bits of a [`Word`].
+const LEAF: usize = 16;
+
+/// Samples along each side of a task; in large pictures 4 times as many.
 const BAND: usize = 64;
+
+/// Pictures longer than that are large.
+const LARGE: usize = 2048;
 
 /// The coordinates of the sample points, by column and by row.
 struct Places {
@@ -298,13 +306,16 @@ struct Places {
     rows: Vec<f64>,
 }
 
+/// The signs of neighbouring samples of a row, the first one lowest: 1 where it is inside.
+type Word = u16;
+
 /// The signs of one task's samples, row by row.
 struct Signs<'a> {
     places: &'a Places,
     block: Block,
     /// What all samples are, as long as `inside` is empty.
     all: bool,
-    inside: Arc<Vec<bool>>,
+    inside: Arc<Vec<Word>>,
     columns: [Vec<f64>; 2],
     values: Vec<f64>,
 }
@@ -312,18 +323,26 @@ struct Signs<'a> {
 /// Signs of neighbouring samples.
 enum Row<'a> {
     Same(bool),
-    Each(&'a [bool]),
+    Each(&'a [Word]),
 }
 
 impl Row<'_> {
-    /// Black inside, white outside, opaque.
-    fn paint(&self, out: &mut [u8]) {
-        let shade = |inside: bool| if inside { [0, 0, 0, 255] } else { [255; 4] };
+    /// Puts what stands for inside and what stands for outside, `N` items each, for each sample.
+    fn put<T: Copy + Default, const N: usize>(&self, outside: [T; N], inside: [T; N], out: &mut [T]) {
+        let same = |out: &mut [T], one: [T; N]| out.as_chunks_mut::<N>().0.fill(one);
         match *self {
-            Self::Same(inside) => out.chunks_exact_mut(4).for_each(|pixel| pixel.copy_from_slice(&shade(inside))),
-            Self::Each(row) => {
-                let pixels = out.chunks_exact_mut(4).zip(row);
-                pixels.for_each(|(pixel, &inside)| pixel.copy_from_slice(&shade(inside)));
+            Self::Same(all) => same(out, if all { inside } else { outside }),
+            Self::Each(words) => {
+                for (word, out) in words.iter().zip(out.chunks_mut(LEAF * N)) {
+                    match *word {
+                        0 => same(out, outside),
+                        Word::MAX => same(out, inside),
+                        word => {
+                            let samples = out.as_chunks_mut::<N>().0.iter_mut().enumerate();
+                            samples.for_each(|(k, one)| *one = if word >> k & 1 == 1 { inside } else { outside });
+                        }
+                    }
+                }
             }
         }
     }
@@ -334,20 +353,28 @@ impl Signs<'_> {
         self.block.to[0] - self.block.from[0]
     }
 
+    /// Words of a row.
+    fn words(&self) -> usize {
+        self.width().div_ceil(LEAF)
+    }
+
     fn row(&self, j: usize) -> Row<'_> {
-        let (width, from) = (self.width(), (j - self.block.from[1]) * self.width());
-        match self.inside.get(from..from + width) {
+        let (words, from) = (self.words(), (j - self.block.from[1]) * self.words());
+        match self.inside.get(from..from + words) {
             Some(row) => Row::Each(row),
             None => Row::Same(self.all),
         }
     }
 
-    fn part(&mut self, block: &Block, j: usize) -> &mut [bool] {
+    /// The words of a box in a row.
+    fn part(&mut self, block: &Block, j: usize) -> &mut [Word] {
+        let words = self.words();
         if self.inside.is_empty() {
-            self.inside = Arc::new(vec![self.all; self.block.points() as usize]);
+            let all = if self.all { Word::MAX } else { 0 };
+            self.inside = Arc::new(vec![all; words * (self.block.to[1] - self.block.from[1])]);
         }
-        let start = (j - self.block.from[1]) * self.width() + (block.from[0] - self.block.from[0]);
-        &mut Arc::make_mut(&mut self.inside)[start..start + (block.to[0] - block.from[0])]
+        let start = (j - self.block.from[1]) * words + (block.from[0] - self.block.from[0]) / LEAF;
+        &mut Arc::make_mut(&mut self.inside)[start..start + (block.to[0] - block.from[0]).div_ceil(LEAF)]
     }
 }
 
@@ -356,14 +383,17 @@ impl Visitor for Signs<'_> {
         if *block == self.block {
             self.all = inside;
         } else if inside {
-            (block.from[1]..block.to[1]).for_each(|j| self.part(block, j).fill(true));
+            (block.from[1]..block.to[1]).for_each(|j| self.part(block, j).fill(Word::MAX));
         }
     }
 
     fn leaf(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) {
         let [mut xs, mut ys] = std::mem::take(&mut self.columns);
-        xs.clear();
-        ys.clear();
+        let count = block.points() as usize;
+        for coordinates in [&mut xs, &mut ys] {
+            coordinates.clear();
+            coordinates.reserve(count);
+        }
         let columns = &self.places.columns[block.from[0]..block.to[0]];
         for &y in &self.places.rows[block.from[1]..block.to[1]] {
             xs.extend_from_slice(columns);
@@ -373,19 +403,20 @@ impl Visitor for Signs<'_> {
         values.resize(xs.len(), 0.0);
         sampler.values(program, &[&xs, &ys], &mut values);
         for (j, values) in (block.from[1]..block.to[1]).zip(values.chunks_exact(columns.len())) {
-            self.part(block, j).iter_mut().zip(values).for_each(|(inside, &v)| *inside = v >= 0.0);
+            let bits = values.iter().enumerate().map(|(k, &v)| Word::from(v >= 0.0) << k);
+            self.part(block, j)[0] = bits.fold(0, |word, bit| word | bit);
         }
         self.values = values;
         self.columns = [xs, ys];
     }
 
     fn keep(&mut self) -> Option<Left> {
-        let bytes = self.inside.capacity();
+        let bytes = self.inside.capacity() * size_of::<Word>();
         Some(Left { what: Arc::new((self.all, self.inside.clone())), bytes })
     }
 
     fn recall(&mut self, left: &Left) -> bool {
-        let Some((all, inside)) = left.what.downcast_ref::<(bool, Arc<Vec<bool>>)>() else { return false };
+        let Some((all, inside)) = left.what.downcast_ref::<(bool, Arc<Vec<Word>>)>() else { return false };
         (self.all, self.inside) = (*all, inside.clone());
         true
     }
@@ -401,7 +432,9 @@ struct Tasks<'a> {
 impl Tasks<'_> {
     /// Whether a sample is inside.
     fn met(&self) -> bool {
-        self.all.iter().any(|task| if task.inside.is_empty() { task.all } else { task.inside.contains(&true) })
+        self.all
+            .iter()
+            .any(|task| if task.inside.is_empty() { task.all } else { task.inside.iter().any(|&word| word != 0) })
     }
 
     /// Lays each row of each task where it belongs in a picture of `per` items a sample.
@@ -425,15 +458,30 @@ impl Tasks<'_> {
     }
 }
 
+/// Which pixels' middles are inside, row by row from the top: what [`Fill::Mono`] paints black.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+///
+/// # Panics
+/// If the shape has another number of axes than two, or a side is 0.
+pub fn inside(
+    shape: &Shape,
+    window: Window,
+    size: [usize; 2],
+    interrupt: &Interrupt,
+) -> Result<(Vec<bool>, Counters), Cancelled> {
+    assert_eq!(shape.dimension, 2, "a plot shows a space of two axes");
+    assert!(!size.contains(&0), "a picture has pixels");
+    signs(shape, &Pixels { window, size }, interrupt)
+}
+
 /// Which samples are inside, row by row.
 fn signs(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<bool>, Counters), Cancelled> {
     let places = pixels.places();
     let tasks = tasks(shape, pixels, &places, interrupt)?;
     let mut all = vec![false; pixels.size[0] * pixels.size[1]];
-    tasks.lay(&mut all, 1, |row, out| match row {
-        Row::Same(inside) => out.fill(inside),
-        Row::Each(row) => out.copy_from_slice(row),
-    });
+    tasks.lay(&mut all, 1, |row, out| row.put([false], [true], out));
     Ok((all, tasks.counters))
 }
 
@@ -533,31 +581,4 @@ fn values(shape: &Shape, pixels: &Pixels, interrupt: &Interrupt) -> Result<(Vec<
     let mut counters = Counters::default();
     rows.into_iter().for_each(|row| counters.add(row));
     Ok((all, counters))
-}
-
-/// Bands of equal width that cover all values but the outermost hundredth on each side, which poles make huge.
-struct Scale {
-    first: f64,
-    step: f64,
-    count: f64,
-}
-
-impl Scale {
-    fn new(values: &[f64]) -> Self {
-        let mut finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-        finite.sort_by(f64::total_cmp);
-        let Some(last) = finite.len().checked_sub(1) else { return Self { first: 0.0, step: 1.0, count: 1.0 } };
-        let (lo, hi) = (finite[last / 100], finite[last - last / 100]);
-        let rough = ((hi - lo) / 12.0).max(f64::MIN_POSITIVE);
-        let power = libm::pow(10.0, libm::log10(rough).floor());
-        let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|&s| s >= rough).unwrap_or(rough);
-        let first = (lo / step).floor();
-        Self { first, step, count: ((hi / step).floor() - first + 1.0).max(1.0) }
-    }
-
-    fn light(&self, value: f64, palette: Palette) -> [f32; 3] {
-        let band = (value / self.step).floor() - self.first;
-        let colour = palette.colour((band + 0.5) / self.count).map(linear);
-        if value >= 0.0 { colour } else { colour.map(|v| v + 0.5 * (1.0 - v)) }
-    }
 }

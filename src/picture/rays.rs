@@ -16,6 +16,8 @@ use crate::surface::memory::Left;
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::{Program, Shape};
 
+pub use algebraic::cast_on;
+
 use super::camera::Camera;
 use super::frustum::{Frustum, Ray};
 use super::raycast::Space;
@@ -113,25 +115,29 @@ pub fn cast<T: Send>(
     cast_on(shape, scene, Aim { pattern: Pattern::Middles, tolerance: 1e-11, normals: true }, finish, interrupt)
 }
 
-/// Casts the rays that are wanted, as a part of a task whose progress was begun already: by roots where the object is a set expression of
-/// polynomials, else by a search.
+/// A height map: what the ray through the middle of each cell meets, row by row, with depths found to `tolerance` of the range of depths.
 ///
 /// # Errors
 /// [`Cancelled`] soon after the interrupt was set.
-pub fn cast_on<T: Send>(
+pub fn heights(
     shape: &Shape,
     scene: &Scene,
-    aim: Aim<'_>,
-    finish: impl Fn(Tile<'_>) -> T + Sync,
+    tolerance: f64,
     interrupt: &Interrupt,
-) -> Result<Tiles<T>, Cancelled> {
-    match algebraic::polynomials(shape) {
-        Some(along) => algebraic::cast((shape, &along), scene, aim, &finish, interrupt),
-        None => search_on(shape, scene, aim, finish, interrupt),
+) -> Result<(Vec<Option<Hit>>, Counters), Cancelled> {
+    interrupt.begin(scene.steps());
+    let aim = Aim { pattern: Pattern::Middles, tolerance, normals: true };
+    let (tiles, counters) = cast_on(shape, scene, aim, |tile| tile.hits.to_vec(), interrupt)?;
+    let mut all = vec![None; scene.rays[0] * scene.rays[1]];
+    for ([left, top], [columns, _], hits) in tiles {
+        for (j, row) in hits.chunks_exact(columns.max(1)).enumerate() {
+            all[(top + j) * scene.rays[0] + left..][..columns].copy_from_slice(row);
+        }
     }
+    Ok((all, counters))
 }
 
-/// The same by a search, whatever the object is.
+/// Casts the rays that are wanted by a search, whatever the object is, as a part of a task whose progress was begun already.
 ///
 /// # Errors
 /// [`Cancelled`] soon after the interrupt was set.

@@ -7,9 +7,10 @@
 //! axis 0 fastest at every level (front to back where axis 2 is depth). What the visitors gathered comes back in a fixed order too: the
 //! same for any number of threads.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::memory::{Left, Memory, Tally};
 use super::sampler::{Counters, Sampler};
@@ -17,6 +18,7 @@ use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
 use crate::reuse::Digest;
 use crate::vm::interval::Boxes;
+use crate::vm::specialise::Writer;
 use crate::vm::{Precision, Program, Shape};
 
 /// Most boxes that one split gives: 4 along each of three axes.
@@ -61,6 +63,12 @@ pub trait Lattice: Sync {
     /// Points along each axis of a task, the piece that one thread descends with one visitor: `leaf` times a power of 4, or
     /// `counts` where the axis must not be cut between tasks (the depth of a camera).
     fn task(&self) -> [usize; 3];
+
+    /// Points along each axis of the pieces that a task is put together from, where long programs are to be shortened: as [`Lattice::task`],
+    /// but cut along axis 2 too.
+    fn part(&self) -> [usize; 3] {
+        self.task()
+    }
 
     /// Writes bounds of each coordinate of the space (`Shape::dimension` of them) over `block`. They must hold every point that the
     /// visitor will evaluate for that block, as it is computed in floating point.
@@ -148,39 +156,37 @@ where
     let mut counters = Counters::default();
     let room = room(lattice, shape, &whole);
     let tasks = gather_tasks(lattice, (shape, room), whole, &mut counters, interrupt)?;
+    let walkers = Pool::default();
     let memory = Memory::of(lattice, (shape, room), interrupt);
     let done: Vec<(V, Counters, bool)> = tasks
         .into_par_iter()
-        .map_init(
-            || Walker::new(lattice, (shape, room), interrupt),
-            |walker, task| {
-                let (block, mut own) = (task.block, visitor(&task.block));
-                let program = match task.state {
-                    State::Decided(inside) => {
-                        walker.decide(&mut own, &block, inside);
-                        own.finish(&mut walker.sampler);
-                        return Ok((own, walker.take_counters(), false));
-                    }
-                    State::Open(program) => program,
-                };
-                let key = memory.as_ref().map(|memory| memory.key(&own, &block, &program));
-                if let Some(counters) = memory.as_ref().zip(key).and_then(|(memory, key)| memory.recall(&mut own, key))
-                {
-                    interrupt.tick()?;
-                    interrupt.advance(block.points());
-                    return Ok((own, counters, true));
+        .map(|task| {
+            let mut own = visitor(&task.block);
+            let open = task.parts.iter().any(|part| part.program().is_some());
+            let memory = memory.as_ref().filter(|_| open);
+            let key = memory.map(|memory| memory.key(&own, &task.block, task.told()));
+            if let Some(counters) = memory.zip(key).and_then(|(memory, key)| memory.recall(&mut own, key)) {
+                interrupt.tick()?;
+                interrupt.advance(task.block.points());
+                return Ok((own, counters, true));
+            }
+            let mut walker = walkers.take(|| Walker::new(lattice, (shape, room), interrupt));
+            for Piece { block, state } in &task.parts {
+                match state {
+                    State::Decided(inside) => walker.decide(&mut own, block, *inside),
+                    State::Open(program) => walker.descend(0, block, program, &mut own)?,
                 }
-                walker.descend(0, &block, &program, &mut own)?;
-                own.finish(&mut walker.sampler);
-                let counters = walker.take_counters();
-                if let Some((memory, key)) = memory.as_ref().zip(key) {
-                    // Nothing that was evaluated after the interrupt was set may outlive it.
-                    interrupt.tick()?;
-                    memory.keep(&mut own, key, &counters);
-                }
-                Ok((own, counters, false))
-            },
-        )
+            }
+            own.finish(&mut walker.sampler);
+            let counters = walker.take_counters();
+            walkers.give(walker);
+            if let Some((memory, key)) = memory.zip(key) {
+                // Nothing that was evaluated after the interrupt was set may outlive it.
+                interrupt.tick()?;
+                memory.keep(&mut own, key, &counters);
+            }
+            Ok((own, counters, false))
+        })
         .collect::<Result<_, Cancelled>>()?;
     let mut visitors = Vec::with_capacity(done.len());
     let mut tally = Tally::default();
@@ -202,10 +208,23 @@ struct Piece {
     state: State,
 }
 
+#[derive(Clone)]
 enum State {
     Open(Arc<Program>),
     Decided(bool),
 }
+
+/// What one visitor goes through: its pieces, by axis 2.
+struct Task {
+    block: Block,
+    parts: Vec<Piece>,
+}
+
+/// Programs of more operations are shortened for pieces of tasks; for shorter ones it is not worth looking where a visitor never comes.
+const LONG: usize = 256;
+
+/// Operations of all pieces' programs at which they are cut along axis 2 no further: about 100 MB.
+const MANY: usize = 1 << 22;
 
 /// Splits the whole lattice, level by level, into tasks and boxes that are decided already.
 fn gather_tasks<L: Lattice>(
@@ -214,30 +233,111 @@ fn gather_tasks<L: Lattice>(
     whole: Block,
     counters: &mut Counters,
     interrupt: &Interrupt,
-) -> Result<Vec<Piece>, Cancelled> {
+) -> Result<Vec<Task>, Cancelled> {
     let task = lattice.task();
-    let is_open = |piece: &Piece| matches!(piece.state, State::Open(_)) && !piece.block.fits(task);
+    let in_parts = lattice.part() != task && shape.program.len() > LONG && !shape.program.has_regions();
+    let mut floor = if in_parts { lattice.part() } else { task };
     let mut pieces = vec![Piece { block: whole, state: State::Open(Arc::clone(&shape.program)) }];
-    while pieces.iter().any(is_open) {
+    let levels = Pool::default();
+    while pieces.iter().any(|piece| piece.program().is_some() && !piece.block.fits(floor)) {
+        // One box keeps one thread busy; its parts are shortened by all.
+        let alone = pieces.len() == 1;
         let level: Vec<(Vec<Piece>, u64)> = pieces
             .into_par_iter()
-            .map_init(
-                || Level::new((shape, room), interrupt),
-                |level, piece| {
-                    interrupt.tick()?;
-                    match &piece.state {
-                        State::Open(program) if !piece.block.fits(task) => {
-                            Ok((level.pieces(lattice, program, &piece.block), level.children.len() as u64))
-                        }
-                        _ => Ok((vec![piece], 0)),
+            .map(|piece| {
+                interrupt.tick()?;
+                match &piece.state {
+                    State::Open(program) if !piece.block.fits(floor) => {
+                        let mut level = levels.take(|| Box::new(Level::new((shape, room), interrupt)));
+                        level.examine(lattice, program, &piece.block, floor);
+                        let parts = if alone { level.pieces_together(program) } else { level.pieces(program) };
+                        let boxes = level.children.len() as u64;
+                        levels.give(level);
+                        Ok((parts, boxes))
                     }
-                },
-            )
+                    _ => Ok((vec![piece], 0)),
+                }
+            })
             .collect::<Result<_, Cancelled>>()?;
         counters.boxes += level.iter().map(|(_, boxes)| boxes).sum::<u64>();
         pieces = level.into_iter().flat_map(|(pieces, _)| pieces).collect();
+        if pieces.iter().filter_map(Piece::program).map(|program| program.len()).sum::<usize>() > MANY {
+            floor = task;
+        }
     }
-    Ok(pieces)
+    Ok(if in_parts { columns(pieces, task) } else { pieces.into_iter().map(Task::of).collect() })
+}
+
+/// The tasks that pieces make up: those over each other along axis 2 together. As the pieces come by axis 2, so do those of a task.
+fn columns(pieces: Vec<Piece>, task: [usize; 3]) -> Vec<Task> {
+    let mut tasks: Vec<Task> = Vec::new();
+    let mut places: FxHashMap<[usize; 2], usize> = FxHashMap::default();
+    let mut blocks = Vec::new();
+    for Piece { block, state } in pieces {
+        let whole = [task[0], task[1], block.counts()[2]];
+        cut(&block, whole, &mut blocks);
+        for &block in &blocks {
+            let part = Piece { block, state: state.clone() };
+            let [x, y, _] = block.from;
+            let place = *places.entry([x, y]).or_insert(tasks.len());
+            match tasks.get_mut(place) {
+                Some(task) => {
+                    task.block.to[2] = block.to[2];
+                    task.parts.push(part);
+                }
+                None => tasks.push(Task::of(part)),
+            }
+        }
+    }
+    tasks
+}
+
+impl Task {
+    fn of(piece: Piece) -> Self {
+        Self { block: piece.block, parts: vec![piece] }
+    }
+
+    /// Its pieces, each with its program or whether it is inside.
+    fn told(&self) -> impl Iterator<Item = (&Block, Result<&Program, bool>)> {
+        self.parts.iter().map(|Piece { block, state }| match state {
+            State::Open(program) => (block, Ok(&**program)),
+            State::Decided(inside) => (block, Err(*inside)),
+        })
+    }
+}
+
+impl Piece {
+    /// The program of one that is not decided.
+    fn program(&self) -> Option<&Program> {
+        match &self.state {
+            State::Open(program) => Some(program),
+            State::Decided(_) => None,
+        }
+    }
+}
+
+/// What threads work with, kept from one piece of work to the next: as many as threads ever work at a time.
+struct Pool<T>(Mutex<Vec<T>>);
+
+impl<T> Default for Pool<T> {
+    fn default() -> Self {
+        Self(Mutex::new(Vec::new()))
+    }
+}
+
+impl<T> Pool<T> {
+    fn all(&self) -> MutexGuard<'_, Vec<T>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn take(&self, make: impl FnOnce() -> T) -> T {
+        let one = self.all().pop();
+        one.unwrap_or_else(make)
+    }
+
+    fn give(&self, one: T) {
+        self.all().push(one);
+    }
 }
 
 /// One thread's way down: a level of scratch for each depth.
@@ -305,8 +405,10 @@ impl<'a, L: Lattice> Walker<'a, L> {
             if let Some(inside) = verdict(level.values[lane], self.room) {
                 self.decide(visitor, &child, inside);
             } else if visitor.wants(&child) {
-                let shorter = level.boxes.specialise(program, lane);
-                self.descend(depth + 1, &child, shorter.as_ref().unwrap_or(program), visitor)?;
+                let Level { boxes, shorter, .. } = &mut *level;
+                let shorter = shorter.get_or_insert_with(|| program.nothing());
+                let part = if boxes.specialise_into(program, lane, shorter) { &*shorter } else { program };
+                self.descend(depth + 1, &child, part, visitor)?;
             } else {
                 self.interrupt.advance(child.points());
             }
@@ -334,6 +436,8 @@ struct Level {
     coordinates: Vec<Interval>,
     values: [Interval; LANES],
     boxes: Boxes,
+    /// The program of the child that is descended into.
+    shorter: Option<Program>,
     room: f64,
 }
 
@@ -348,6 +452,7 @@ impl Level {
             coordinates: vec![nothing; shape.dimension],
             values: [nothing; LANES],
             boxes: Boxes::heeding(interrupt),
+            shorter: None,
             room,
         }
     }
@@ -369,16 +474,31 @@ impl Level {
         self.boxes.eval(program, &slices[..self.inputs.len()], &mut self.values[..count]);
     }
 
-    fn pieces<L: Lattice>(&mut self, lattice: &L, program: &Arc<Program>, block: &Block) -> Vec<Piece> {
-        self.examine(lattice, program, block, lattice.task());
-        let room = self.room;
-        let state = |boxes: &mut Boxes, lane: usize, value| match verdict(value, room) {
-            Some(inside) => State::Decided(inside),
-            None => State::Open(boxes.specialise(program, lane).map_or_else(|| Arc::clone(program), Arc::new)),
+    /// The children, each with its own program, or decided.
+    fn pieces(&mut self, program: &Arc<Program>) -> Vec<Piece> {
+        let Self { children, values, boxes, room, .. } = self;
+        let piece = |(lane, &block): (usize, &Block)| {
+            let mut shorter = || boxes.specialise(program, lane).map_or_else(|| Arc::clone(program), Arc::new);
+            Piece { block, state: verdict(values[lane], *room).map_or_else(|| State::Open(shorter()), State::Decided) }
         };
-        let (boxes, values) = (&mut self.boxes, &self.values);
-        let children = self.children.iter().enumerate();
-        children.map(|(lane, &block)| Piece { block, state: state(boxes, lane, values[lane]) }).collect()
+        children.iter().enumerate().map(piece).collect()
+    }
+
+    /// The same by all threads.
+    fn pieces_together(&mut self, program: &Arc<Program>) -> Vec<Piece> {
+        let Self { children, values, boxes, room, .. } = self;
+        let (marks, choices) = boxes.marks(program);
+        let (children, values, room) = (&*children, &*values, *room);
+        let shorter = |(writer, out): &mut (Writer, Program), lane: usize| {
+            let shorter = marks.write((program, choices), lane, writer, out);
+            State::Open(if shorter { Arc::new(out.clone()) } else { Arc::clone(program) })
+        };
+        let piece = |scratch: &mut (Writer, Program), lane: usize| Piece {
+            block: children[lane],
+            state: verdict(values[lane], room).map_or_else(|| shorter(scratch, lane), State::Decided),
+        };
+        let scratch = || (Writer::default(), program.nothing());
+        (0..children.len()).into_par_iter().map_init(scratch, piece).collect()
     }
 }
 
@@ -427,6 +547,11 @@ fn fixed(value: f64) -> Interval {
 fn split(block: &Block, leaf: [usize; 3], floor: [usize; 3], out: &mut Vec<Block>) {
     let scale = (0..3).map(|d| scale(block.to[d] - block.from[d], leaf[d], floor[d])).max().unwrap_or(1);
     let steps: [usize; 3] = std::array::from_fn(|d| leaf[d].saturating_mul(scale).max(floor[d]));
+    cut(block, steps, out);
+}
+
+/// Cuts a box into boxes of those lengths (the last ones may be shorter), axis 2 slowest.
+fn cut(block: &Block, steps: [usize; 3], out: &mut Vec<Block>) {
     let starts = |d: usize| (block.from[d]..block.to[d]).step_by(steps[d]);
     out.clear();
     for z in starts(2) {

@@ -48,12 +48,22 @@ impl<'a> Memory<'a> {
         lattice.tell(&mut common).then_some(Self { reuse, shape, common })
     }
 
-    /// The name of a task's result.
-    pub(super) fn key<V: Visitor>(&self, visitor: &V, block: &Block, program: &Program) -> Key {
+    /// The name of a task's result. Each of its pieces has a program, or is known to be inside or outside.
+    pub(super) fn key<'p, V: Visitor>(
+        &self,
+        visitor: &V,
+        block: &Block,
+        pieces: impl Iterator<Item = (&'p Block, Result<&'p Program, bool>)>,
+    ) -> Key {
         let mut digest = self.common.clone();
         (block.from, block.to).hash(&mut digest);
         visitor.tell(&mut digest);
-        program.tell(&self.shape.fixed, &mut digest);
+        for (block, what) in pieces {
+            (block.from, block.to, what.err()).hash(&mut digest);
+            if let Ok(program) = what {
+                program.tell(&self.shape.fixed, &mut digest);
+            }
+        }
         digest.key()
     }
 

@@ -6,7 +6,7 @@ mod statement;
 
 use std::borrow::Cow;
 use std::num::NonZeroUsize;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use pest::Parser;
 use pest::error::{ErrorVariant, InputLocation};
@@ -96,12 +96,26 @@ enum Stop {
     GaveUp,
 }
 
-fn grammar(rule: Rule, text: &str) -> Result<Pairs<'_, Rule>, Stop> {
+/// Statements up to that many bytes may make the same number of calls, so that they can be read at the same time.
+const SHORT: usize = 512;
+
+/// Takes the limit for a text of so many bytes, as long as the guard lives.
+fn limit_calls(length: usize) -> MutexGuard<'static, ()> {
     let guard = CALL_LIMIT.lock().unwrap_or_else(PoisonError::into_inner);
-    pest::set_call_limit(NonZeroUsize::new(200 * text.len() + 10_000));
-    let result = Grammar::parse(rule, text);
+    pest::set_call_limit(NonZeroUsize::new(200 * length.max(SHORT) + 10_000));
+    guard
+}
+
+fn grammar(rule: Rule, text: &str) -> Result<Pairs<'_, Rule>, Stop> {
+    let guard = limit_calls(text.len());
+    let result = limited(rule, text);
     drop(guard);
-    result.map_err(|error| match (error.variant, error.location) {
+    result
+}
+
+/// The same by who holds the limit.
+fn limited(rule: Rule, text: &str) -> Result<Pairs<'_, Rule>, Stop> {
+    Grammar::parse(rule, text).map_err(|error| match (error.variant, error.location) {
         (ErrorVariant::CustomError { .. }, _) => Stop::GaveUp,
         (_, InputLocation::Pos(at) | InputLocation::Span((at, _))) => Stop::At(at),
     })
@@ -117,8 +131,9 @@ struct Driver<'t> {
 
 impl<'t> Driver<'t> {
     fn run(&mut self, pieces: &Pieces) {
+        let mut ahead = self.ahead(&pieces.chunks).into_iter();
         for chunk in &pieces.chunks {
-            self.chunk(chunk);
+            self.chunk(chunk, ahead.next().flatten());
         }
         let last_fails =
             matches!(self.parsed.statements.last(), Some(s) if matches!(s.kind, StatementKind::Failed { .. }));
@@ -140,9 +155,41 @@ impl<'t> Driver<'t> {
         Place { text: self.text, id: self.id, start, end }
     }
 
-    fn chunk(&mut self, chunk: &Chunk) {
+    /// Reads the short statements of a long text by all threads; an entry for each chunk, or none at all. On threads of their own, not on
+    /// rayon's: those would take up other work while they hold the limit, perhaps another text.
+    fn ahead(&self, chunks: &[Chunk]) -> Vec<Option<Outcome>> {
+        let threads = rayon::current_num_threads().min(chunks.len() / MANY);
+        if threads < 2 {
+            return Vec::new();
+        }
+        let (text, id, comments) = (self.text, self.id, self.comments);
+        let read = move |chunk: &Chunk| {
+            let short = chunk.end - chunk.start <= SHORT && chunk.depth < SHALLOW && chunk.faults.is_empty();
+            let builder = Builder { text, id, base: chunk.start, comments, diagnostics: Vec::new() };
+            short.then(|| builder.read(limited(Rule::single, &text[chunk.start..chunk.end])))
+        };
+        let guard = limit_calls(SHORT);
+        let all = std::thread::scope(|scope| {
+            let spawn = |part| {
+                let builder = std::thread::Builder::new().stack_size(2 * SHALLOW * STACK_PER_LEVEL);
+                builder.spawn_scoped(scope, move || <[Chunk]>::iter(part).map(read).collect::<Vec<_>>())
+            };
+            let threads: Vec<_> =
+                chunks.chunks(chunks.len().div_ceil(threads)).map(|part| (part.len(), spawn(part))).collect();
+            let outcomes = threads.into_iter().flat_map(|(count, thread)| {
+                // What a thread could not do is left to the one that asked.
+                let read = thread.ok().and_then(|thread| thread.join().ok());
+                read.unwrap_or_else(|| (0..count).map(|_| None).collect())
+            });
+            outcomes.collect()
+        });
+        drop(guard);
+        all
+    }
+
+    fn chunk(&mut self, chunk: &Chunk, ahead: Option<Outcome>) {
         if chunk.faults.is_empty() {
-            self.statements(chunk);
+            self.statements(chunk, ahead);
             return;
         }
         let place = self.place(chunk.start, chunk.end);
@@ -201,11 +248,15 @@ impl<'t> Driver<'t> {
     }
 
     /// Parses the statements of a chunk: one, or several where a `;` was forgotten.
-    fn statements(&mut self, chunk: &Chunk) {
+    fn statements(&mut self, chunk: &Chunk, ahead: Option<Outcome>) {
         let mut start = chunk.start;
+        let mut done = match ahead {
+            Some(outcome) => self.take(chunk, outcome, start, chunk.end),
+            None => self.one(chunk, start, chunk.end),
+        };
         // Each turn reads the rest again, so that a text without any `;` must not take as many turns as it has lines.
         let mut told = 0;
-        while let Err(stop) = self.one(chunk, start, chunk.end) {
+        while let Err(stop) = done {
             let place = self.place(start, chunk.end);
             let Stop::At(at) = stop else {
                 let diagnostic = explain::gave_up(place);
@@ -220,6 +271,7 @@ impl<'t> Driver<'t> {
             let diagnostic = explain::missing_semicolon(self.place(start, chunk.end), next);
             self.parsed.diagnostics.push(diagnostic);
             start = next.statement;
+            done = self.one(chunk, start, chunk.end);
         }
         if chunk.semicolon.is_none() && self.mode == Mode::Script {
             self.unfinished(chunk);
@@ -256,14 +308,15 @@ impl<'t> Driver<'t> {
     /// Parses one statement of `start..end`; the error says where the grammar stopped.
     fn one(&mut self, chunk: &Chunk, start: usize, end: usize) -> Result<(), Stop> {
         let text = &self.text[start..end];
-        let (id, comments, whole) = (self.id, self.comments, self.text);
-        let (kind, diagnostics) = with_stack(chunk.depth, || {
-            let mut pairs = grammar(Rule::single, text)?;
-            let mut builder = Builder { text: whole, id, base: start, comments, diagnostics: Vec::new() };
-            let kind = pairs.next().and_then(|single| builder.single(single));
-            Ok((kind, builder.diagnostics))
-        })
-        .map_err(|stop| match stop {
+        let builder =
+            Builder { text: self.text, id: self.id, base: start, comments: self.comments, diagnostics: Vec::new() };
+        let outcome = with_stack(chunk.depth, || builder.read(grammar(Rule::single, text)));
+        self.take(chunk, outcome, start, end)
+    }
+
+    /// Takes what became of `start..end`.
+    fn take(&mut self, chunk: &Chunk, outcome: Outcome, start: usize, end: usize) -> Result<(), Stop> {
+        let (kind, diagnostics) = outcome.map_err(|stop| match stop {
             Stop::At(at) => Stop::At(at + start),
             Stop::GaveUp => Stop::GaveUp,
         })?;
@@ -277,6 +330,13 @@ impl<'t> Driver<'t> {
         Ok(())
     }
 }
+
+/// What became of one statement: the tree, if there is anything at all, and messages about what the grammar lets through; places of errors
+/// count from where it begins.
+type Outcome = Result<(Option<StatementKind>, Vec<Diagnostic>), Stop>;
+
+/// A thread of its own is worth it for that many statements.
+const MANY: usize = 256;
 
 /// How many errors of one statement or block are told, each of which reads it again.
 const MENDINGS: usize = 20;
@@ -333,4 +393,12 @@ struct Builder<'t> {
     base: usize,
     comments: &'t [(usize, usize)],
     diagnostics: Vec<Diagnostic>,
+}
+
+impl<'t> Builder<'t> {
+    /// The statement that the grammar found.
+    fn read(mut self, pairs: Result<Pairs<'t, Rule>, Stop>) -> Outcome {
+        let kind = pairs?.next().and_then(|single| self.single(single));
+        Ok((kind, self.diagnostics))
+    }
 }

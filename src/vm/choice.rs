@@ -7,13 +7,12 @@ use super::kernels::{Kind, Operands};
 use super::program::{Op, Side};
 use crate::number::{Binary, Interval, Ternary, Unary};
 
-/// What is known of one operation in each box, a bit per lane: that only its first operand matters, only its second, or (both bits)
-/// that it is a truth whose value is known.
+/// What is known of one operation in each box, a bit per lane: that only its first operand matters, or only its second; of a truth, that
+/// it is certain, or certainly not so. Never both.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Choice {
     pub(crate) first: u64,
     pub(crate) second: u64,
-    pub(crate) holds: u64,
 }
 
 /// The choices of a program's last evaluation.
@@ -105,18 +104,14 @@ pub(crate) fn watch(
             // An R-union with an operand that is nowhere defined is the other one.
             pick!(lanes, i => (get(b, i).is_empty(), get(a, i).is_empty() & !get(b, i).is_empty()))
         }
-        ref op if is_truth(op) => {
-            let known = pick!(lanes, i => certainty(get(result, i)));
-            let both = known.first | known.second;
-            Choice { first: both, second: both, holds: known.first }
-        }
+        ref op if is_truth(op) => pick!(lanes, i => certainty(get(result, i))),
         _ => return,
     };
 }
 
 /// Operations whose value is 1 or 0.
 #[inline(always)]
-fn is_truth(op: &Op) -> bool {
+pub(crate) fn is_truth(op: &Op) -> bool {
     use Binary::{And, Equal, Less, LessEqual, NotEqual, Or};
     match op {
         Op::Unary(Unary::Not, _) => true,

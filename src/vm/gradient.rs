@@ -58,6 +58,26 @@ impl Kind for Duals {
     fn unary(op: Unary, a: Self::Item) -> Self::Item {
         op.dual(a)
     }
+    /// For angles: values, then what each slope is multiplied by, then each slope, since rare ones are looked for by the block. The
+    /// others are better done in one loop.
+    #[inline(always)]
+    fn unary_block(op: Unary, a: &DualBlock, out: &mut DualBlock, lanes: usize) {
+        let lanes = lanes.min(LANES);
+        if !matches!(op, Unary::Sin | Unary::Cos | Unary::Tan) {
+            for i in 0..lanes {
+                Self::set(out, i, op.dual(Self::get(a, i)));
+            }
+            return;
+        }
+        let mut by = [0.0; LANES];
+        op.map(&a.value[..lanes], &mut out.value[..lanes]);
+        op.slopes_map(&a.value[..lanes], &out.value[..lanes], &mut by[..lanes]);
+        for (out, slope) in out.slope.iter_mut().zip(&a.slope) {
+            for ((out, &slope), &by) in out[..lanes].iter_mut().zip(slope).zip(&by) {
+                *out = crate::number::dual::times(by, slope);
+            }
+        }
+    }
     #[inline(always)]
     fn binary(op: Binary, a: Self::Item, b: Self::Item) -> Self::Item {
         op.dual(a, b)

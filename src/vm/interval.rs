@@ -1,10 +1,10 @@
 //! Ranges over boxes, up to 64 boxes at a time, and which operands can never matter in each: what `specialise` shortens by.
 
-use super::choice::{Choices, watch};
+use super::choice::{Choice, Choices, watch};
 use super::kernels::{Code, Kind, Operands, Store, ranges};
 use super::program::{Op, Program};
 use super::region::{RegionProgram, RegionStore};
-use super::specialise::Scratch;
+use super::specialise::{Marks, Scratch};
 use crate::interrupt::Interrupt;
 use crate::number::{Binary, Interval, Leaf, Ternary, Unary};
 
@@ -116,6 +116,7 @@ impl Boxes {
         assert!(boxes.iter().all(|b| b.len() == out.len()) && out.len() <= LANES, "one interval per box, 64 at most");
         self.store.reserve(program);
         self.choices.begin(program.operations.len(), out.len());
+        self.scratch.forget();
         for (input, intervals) in boxes.iter().enumerate() {
             let block = self.store.input(input);
             intervals.iter().enumerate().for_each(|(lane, interval)| Ranges::set(block, lane, *interval));
@@ -131,5 +132,16 @@ impl Boxes {
     #[must_use]
     pub fn specialise(&mut self, program: &Program, lane: usize) -> Option<Program> {
         self.scratch.specialise(program, &self.choices.of, lane)
+    }
+    /// [`Boxes::specialise`] into a program that is there already, so that nothing is allocated; whether it became shorter. If not,
+    /// what stands there is of no use.
+    pub(crate) fn specialise_into(&mut self, program: &Program, lane: usize, out: &mut Program) -> bool {
+        self.scratch.specialise_into(program, &self.choices.of, lane, out)
+    }
+
+    /// What the boxes of the last [`Boxes::eval`] still read, and its choices: for threads that write their programs together.
+    pub(crate) fn marks(&mut self, program: &Program) -> (&Marks, &[Choice]) {
+        let choices = &self.choices.of;
+        (self.scratch.marks(program, choices), choices)
     }
 }

@@ -80,7 +80,7 @@ impl Op {
 
     /// The operation with each value replaced.
     #[inline(always)]
-    pub(crate) fn renumbered(self, f: impl Fn(Value) -> Value) -> Self {
+    pub(crate) fn renumbered(self, mut f: impl FnMut(Value) -> Value) -> Self {
         match self {
             Self::Constant(_) => self,
             Self::Unary(op, a) => Self::Unary(op, f(a)),

@@ -387,3 +387,39 @@ fn wrong_from_end_to_end() {
         assert!(found.diagnostics.len() <= Limits::default().errors + 1, "{}", &text[..8]);
     }
 }
+
+/// Statements of a long text are read by several threads: as many trees as statements, in their order, and each error in its place.
+#[test]
+fn a_long_text_is_read_as_its_statements_are() {
+    let line = |i: usize| match i % 700 {
+        5 => format!("v_{i} = 1 + ;\n"),
+        6 => format!("v_{i} = 2 +* {i};\n"),
+        7 => format!("v_{i} = {}1{};\n", "(".repeat(60), ")".repeat(60)),
+        8 => format!("v_{i} = {};\n", vec!["x1"; 400].join(" + ")),
+        _ => format!("{{ The {i}th. }} v_{i} = SIN(x1 * {i}) - 2;\n"),
+    };
+    let count = 2_500;
+    let lines: Vec<String> = (0..count).map(line).collect();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
+    let whole = pool.install(|| parsed(&lines.concat(), Mode::Script));
+    assert_eq!(whole.statements.len(), count);
+    let mut start = 0;
+    let mut told = whole.diagnostics.iter();
+    for (line, statement) in lines.iter().zip(&whole.statements) {
+        let alone = parsed(line, Mode::Script);
+        assert_eq!(alone.statements.len(), 1);
+        assert_eq!(statement.span.start, start + alone.statements[0].span.start);
+        assert_eq!(undocumented(&[statement.clone()]), undocumented(&alone.statements), "{line}");
+        assert_eq!(statement.doc, alone.statements[0].doc);
+        for diagnostic in &alone.diagnostics {
+            let same = told.next().expect("as many messages");
+            assert_eq!((same.code, &same.title), (diagnostic.code, &diagnostic.title));
+            let places = |d: &yont::diagnostic::Diagnostic, base: u32| -> Vec<u32> {
+                d.labels.iter().map(|label| label.span.start - base).collect()
+            };
+            assert_eq!(places(same, start), places(diagnostic, 0), "{line}");
+        }
+        start += line.len() as u32;
+    }
+    assert!(told.next().is_none());
+}

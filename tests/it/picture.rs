@@ -6,13 +6,13 @@ use yont::interrupt::{Cancelled, Interrupt};
 use yont::number::{Algebra, Binary, Ternary};
 use yont::picture::animation::Frames;
 use yont::picture::extent::Extent;
-use yont::picture::plot::{Fill, Window, plot};
+use yont::picture::plot::{Fill, Window, inside, plot};
 use yont::picture::raycast::{Picture, Space, Style, framed, raycast};
-use yont::picture::rays::{Hit, Scene, cast};
+use yont::picture::rays::{Hit, Scene, cast, heights};
 use yont::picture::{Camera, Image, Palette, Projection, View};
 use yont::vm::{Demand, Program, Shape};
 
-use crate::solids::{Ex, HARD, KNOWN, ball, shape_of};
+use crate::solids::{Ex, HARD, KNOWN, ball, shape_of, sphere};
 
 fn cube(half: f64) -> Space {
     Space { lo: [-half; 3], hi: [half; 3] }
@@ -254,20 +254,28 @@ const WINDOW: Window = Window { lo: [-1.2, -1.0], hi: [1.3, 0.9] };
 
 #[test]
 fn mono_plots_are_dense_sampling_at_the_middles_of_the_pixels() {
-    let size = [131, 97];
+    // The last size is cut into tasks of another size.
+    for size in [[131, 97], [16, 16], [2100, 33]] {
+        mono(size);
+    }
+}
+
+fn mono(size: [usize; 2]) {
     let shape = shape_of(ring, 2, Demand::Sign);
     let [one, three] = [1, 3].map(|n| {
         with_threads(n, || plot(&shape, WINDOW, size, Fill::Mono, &Interrupt::default()).expect("a plot").image)
     });
     assert!(one == three);
+    let (signs, _) = inside(&shape, WINDOW, size, &Interrupt::default()).expect("not cancelled");
     let dense = |x: f64, y: f64| {
         let ring = 0.06 - ((x * x + y * y).sqrt() - 0.7).powi(2);
         ring.max((0.15 - x.abs()).min(0.9 - y.abs())) >= 0.0
     };
     for j in 0..size[1] {
         for i in 0..size[0] {
-            let x = -1.2 + (i as f64 + 0.5) * 2.5 / 131.0;
-            let y = 0.9 - (j as f64 + 0.5) * 1.9 / 97.0;
+            let x = -1.2 + (i as f64 + 0.5) * 2.5 / size[0] as f64;
+            let y = 0.9 - (j as f64 + 0.5) * 1.9 / size[1] as f64;
+            assert_eq!(signs[j * size[0] + i], dense(x, y), "({i}, {j})");
             let colour = if dense(x, y) { [0, 0, 0, 255] } else { [255; 4] };
             assert_eq!(one.pixel(i, j), colour, "({i}, {j})");
         }
@@ -488,4 +496,49 @@ fn a_transparent_background_leaves_the_object_alone() {
     assert_eq!(clear.pixel(0, 0)[3], 0);
     assert_eq!(clear.pixel(30, 22)[3], 255);
     assert!((50..500).contains(&edges), "{edges}");
+}
+
+/// Balls at places without an order, so many that each part of a task gets a program of its own.
+#[test]
+fn many_balls_are_hit_where_the_nearest_of_them_is() {
+    let turn = |i: usize, step: f64| (0.5 + step * i as f64).fract();
+    let balls: Vec<([f64; 3], f64)> = (0..200)
+        .map(|i| ([0.819_172_5, 0.671_043_6, 0.549_700_5].map(|s| 1.7 * turn(i, s) - 0.85), 0.03 + 0.1 * turn(i, 0.37)))
+        .collect();
+    let union = |x: Ex, y: Ex, z: Ex| {
+        let all = balls.iter().map(|&(at, r)| sphere(at, r, [&x, &y, &z]));
+        all.reduce(|a, b| a.ternary(Ternary::Union, &b, 0.0)).expect("balls")
+    };
+    let shape = shape_of(union, 3, Demand::Sign);
+    let rays = [150, 120];
+    for name in ["top", "25,-40"] {
+        let camera = Camera::framing(&View::from_name(name).expect("a view"), &Extent::whole(cube(1.0)), 1.25);
+        let scene = Scene { camera, space: cube(1.0), rays, tile: 8 };
+        let [one, three] =
+            [1, 3].map(|n| with_threads(n, || heights(&shape, &scene, 1e-9, &Interrupt::default()).expect("hits").0));
+        assert_eq!(one, three);
+        let mut met = 0;
+        for (n, hit) in one.iter().enumerate() {
+            let (start, d) = ray(&camera, rays, n);
+            // Where the ray enters each ball, and how long it stays in it.
+            let enter = |&(at, r): &([f64; 3], f64)| {
+                let o: [f64; 3] = std::array::from_fn(|k| start[k] - at[k]);
+                let (a, b, c) = (dot(d, d), dot(o, d), dot(o, o) - r * r);
+                let root = (b * b - a * c).sqrt();
+                (root > 0.0).then(|| ((-b - root) / a, 2.0 * root / a))
+            };
+            let entered: Vec<(f64, f64)> = balls.iter().filter_map(enter).collect();
+            let least = |of: &dyn Fn(f64) -> bool| {
+                let depths = entered.iter().filter(|(_, stay)| of(*stay)).map(|(depth, _)| *depth);
+                depths.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
+            };
+            let depth = hit.map_or(f64::INFINITY, |hit| hit.depth);
+            // What is left before a smallest box ends may be stepped over, beside other balls.
+            let (first, sure) = (least(&|_| true), least(&|stay| stay > 0.15));
+            assert!(first - 1e-6 <= depth && depth <= sure + 1e-6, "{name} {n}: {depth} for {first} to {sure}");
+            met += usize::from((depth - first).abs() < 1e-6);
+        }
+        let hits = one.iter().flatten().count();
+        assert!(hits > rays[0] * rays[1] / 8 && met * 1000 > hits * 995, "{name}: {met} of {hits}");
+    }
 }

@@ -1,8 +1,10 @@
 //! The same work through Yont and its peers in one run: results are compared first, then runs alternate, and medians are printed beside
-//! each other. `cargo run --release --manifest-path benches/peers/Cargo.toml [WORK ...]` from the root of the repository.
+//! each other. `cargo run --release --manifest-path benches/peers/Cargo.toml [WORK ...]` from the root of the repository. `YONT_ALONE=1` runs
+//! our side alone, for a profile of it.
 
 mod ours;
 mod peer;
+mod pictures;
 mod table;
 mod works;
 

@@ -24,6 +24,8 @@ impl<'a> Runner<'a> {
 
 /// Runs them in turn, at least `least` times and for no more than about `budget` each, and prints medians and ratios to the first.
 pub fn compare(work: &str, runners: &mut [Runner<'_>], least: usize, budget: Duration) {
+    let count = if std::env::var_os("YONT_ALONE").is_some() { 1 } else { runners.len() };
+    let runners = &mut runners[..count];
     let mut times: Vec<Vec<Duration>> = vec![Vec::new(); runners.len()];
     for round in 0.. {
         for (runner, times) in runners.iter_mut().zip(&mut times) {
@@ -55,6 +57,26 @@ pub fn compare(work: &str, runners: &mut [Runner<'_>], least: usize, budget: Dur
 pub fn head() {
     println!("| work | who | compile, ms | run, ms (median) | times ours | runs |");
     println!("|---|---|---|---|---|---|");
+}
+
+/// The median time of at least 3 runs of about `budget` in all, in seconds.
+pub fn time(budget: Duration, mut run: impl FnMut()) -> f64 {
+    let mut times = Vec::new();
+    while times.len() < 3 || (times.iter().sum::<Duration>() < budget && times.len() < 41) {
+        let start = Instant::now();
+        run();
+        times.push(start.elapsed());
+    }
+    median(&mut times)
+}
+
+/// The exponent of the power of the size that fits the times best.
+pub fn exponent(points: &[(f64, f64)]) -> f64 {
+    let logs: Vec<(f64, f64)> = points.iter().map(|(size, time)| (size.ln(), time.ln())).collect();
+    let mean = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / logs.len() as f64;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let rise: f64 = logs.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+    rise / logs.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>()
 }
 
 fn median(times: &mut [Duration]) -> f64 {

@@ -14,13 +14,14 @@ use fidget::vm::VmFunction;
 use rayon::prelude::*;
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
-use yont::picture::plot::{Fill, Window, plot};
+use yont::picture::plot::{Fill, Window, inside, plot};
 use yont::surface::{Grid, check, extract};
 use yont::vm::block::Scalar;
 use yont::vm::{Demand, Points, Program, Shape};
 
 use crate::ours::{GYROID, Object, program, spheres};
 use crate::peer::Expression;
+use crate::pictures;
 use crate::table::{Runner, compare};
 
 /// Name and work.
@@ -29,6 +30,12 @@ pub const WORKS: &[(&str, fn())] = &[
     ("prospero-4096", || prospero(4096)),
     ("spheres-root-section", || section("10,000 spheres, `|`, section 1024", 0, 1024)),
     ("spheres-max-section", || section("10,000 spheres, max, section 1024", 1, 1024)),
+    ("spheres-root-heights", || pictures::heights("10,000 spheres, `|`, height map 256", 0)),
+    ("spheres-max-heights", || pictures::heights("10,000 spheres, max, height map 256", 1)),
+    ("gyroid-picture", pictures::gyroid),
+    ("load", pictures::load),
+    ("sizes-prospero", pictures::sizes_prospero),
+    ("sizes-spheres", pictures::sizes_spheres),
     ("gyroid-128", || mesh("gyroid ball, mesh 128", &Object::of(GYROID), 1.0, 7)),
     ("gyroid-256", || mesh("gyroid ball, mesh 256", &Object::of(GYROID), 1.0, 8)),
     ("bear", || model_mesh("bear", 1.0)),
@@ -42,14 +49,14 @@ pub const WORKS: &[(&str, fn())] = &[
     }),
 ];
 
-const BUDGET: Duration = Duration::from_secs(3);
+pub const BUDGET: Duration = Duration::from_secs(3);
 
 /// Uses a result, so that nobody leaves the work out.
-fn keep<T>(result: T) {
+pub fn keep<T>(result: T) {
     drop(black_box(result));
 }
 
-fn list(name: &str) -> Option<String> {
+pub fn list(name: &str) -> Option<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../../shared/data/models/{name}.vm"));
     let text = std::fs::read_to_string(&path).ok();
     if text.is_none() {
@@ -75,6 +82,7 @@ fn picture(name: &str, object: &Object, peer: &Expression, side: usize) {
     let window = Window { lo: [-1.0; 2], hi: [1.0; 2] };
     let paint =
         |shape: &Shape| plot(shape, window, [side; 2], Fill::Mono, &Interrupt::default()).expect("no one stops it");
+    let mask = |shape: &Shape| inside(shape, window, [side; 2], &Interrupt::default());
     // Fidget looks at the corners of pixels, Yont at their middles.
     let half = nalgebra::Vector2::repeat(1.0 / side as f32);
     let config = pixel::RenderConfig {
@@ -91,6 +99,7 @@ fn picture(name: &str, object: &Object, peer: &Expression, side: usize) {
         name,
         &mut [
             Runner::new("Yont, double", || object.shape(2, Demand::Sign), |s| keep(paint(s))),
+            Runner::new("Yont, double, a byte a pixel", || object.shape(2, Demand::Sign), |s| keep(mask(s))),
             Runner::new("Fidget, VM, single", || bound::<VmFunction>(peer), |b| keep(config.run(b.clone()))),
             Runner::new("Fidget, JIT, single", || bound::<JitFunction>(peer), |b| keep(config.run(b.clone()))),
         ],
@@ -99,7 +108,7 @@ fn picture(name: &str, object: &Object, peer: &Expression, side: usize) {
     );
 }
 
-fn bound<F: MathFunction + Clone>(peer: &Expression) -> BoundShape<'static, F, f32> {
+pub fn bound<F: MathFunction + Clone>(peer: &Expression) -> BoundShape<'static, F, f32> {
     Form::<F>::new(&peer.context, peer.root).expect("a shape").try_into().ok().expect("no variables")
 }
 
@@ -182,6 +191,21 @@ fn dense_ours<T: Scalar + Into<f64>>(program: &Program, piece: usize, number: im
     Lattice { side: 256, piece }.sum(&number, Points::<T>::new, &values)
 }
 
+/// The same slab by slab as a lattice, the form in which a grid of points is given to the evaluator.
+fn dense_lattice<T: Scalar + Into<f64>>(program: &Program, number: impl Fn(f64) -> T + Sync) -> f64 {
+    let side = 256;
+    let axis: Vec<T> = (0..side).map(|k| number((k as f64 + 0.5) / side as f64 * 2.0 - 1.0)).collect();
+    let make = || (Points::<T>::new(), vec![number(0.0); side * side]);
+    let slabs: Vec<f64> = axis
+        .par_chunks(1)
+        .map_init(make, |(points, out), z| {
+            points.lattice(program, &[&axis, &axis, z], out);
+            out.iter().map(|v| (*v).into()).sum()
+        })
+        .collect();
+    slabs.iter().sum()
+}
+
 fn dense_peer<F: MathFunction + Function>(form: &Form<F>, piece: usize) -> f64
 where
     <F::FloatSliceEval as BulkEvaluator>::Tape: Sync,
@@ -199,12 +223,16 @@ fn dense(name: &str, object: &Object) {
     let form = |e: &Expression| Form::<JitFunction>::new(&e.context, e.root).expect("a shape");
     let interpreted = |e: &Expression| Form::<VmFunction>::new(&e.context, e.root).expect("a shape");
     let sums = [dense_ours(&program(), 4096, |v| v as f32), dense_ours(&program(), 4096, |v| v)];
+    let lattice = [dense_lattice(&program(), |v| v as f32), dense_lattice(&program(), |v| v)];
+    assert!((sums[1] - lattice[1]).abs() <= 1e-9 * sums[1].abs(), "a lattice gives the values of its points");
     let theirs = -dense_peer(&form(&peer), 4096);
-    println!("<!-- {name}: sums {sums:?} and {theirs} -->");
+    println!("<!-- {name}: sums {sums:?}, {lattice:?} and {theirs} -->");
     assert!((sums[1] - theirs).abs() <= 1e-3 * theirs.abs(), "the values agree");
     let mut runners = vec![
-        Runner::new("Yont, single", program, |p| keep(dense_ours(p, 4096, |v| v as f32))),
-        Runner::new("Yont, double", program, |p| keep(dense_ours(p, 4096, |v| v))),
+        Runner::new("Yont, single", program, |p| keep(dense_lattice(p, |v| v as f32))),
+        Runner::new("Yont, double", program, |p| keep(dense_lattice(p, |v| v))),
+        Runner::new("Yont, single, points in any order", program, |p| keep(dense_ours(p, 4096, |v| v as f32))),
+        Runner::new("Yont, double, points in any order", program, |p| keep(dense_ours(p, 4096, |v| v))),
     ];
     for piece in [256, 1024, 4096, 16384] {
         let name = |who: &str| format!("Fidget, {who}, single, {piece} at once");

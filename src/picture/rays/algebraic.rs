@@ -2,15 +2,33 @@
 
 use rayon::prelude::*;
 
-use super::{Aim, Caster, Frustum, Hit, Hits, Scene, Tile, Tiles};
+use super::{Aim, Caster, Frustum, Hit, Hits, Scene, Tile, Tiles, search_on};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::boxes::{Block, Lattice};
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::along::{Along, LANES, Scratch};
 use crate::vm::{Precision, Shape};
 
+/// Casts the rays that are wanted, as a part of a task whose progress was begun already: by roots where the object is a set expression of
+/// polynomials, else by a search.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+pub fn cast_on<T: Send>(
+    shape: &Shape,
+    scene: &Scene,
+    aim: Aim<'_>,
+    finish: impl Fn(Tile<'_>) -> T + Sync,
+    interrupt: &Interrupt,
+) -> Result<Tiles<T>, Cancelled> {
+    match polynomials(shape) {
+        Some(along) => cast((shape, &along), scene, aim, &finish, interrupt),
+        None => search_on(shape, scene, aim, finish, interrupt),
+    }
+}
+
 /// The shape as polynomials along rays, if it is such.
-pub(super) fn polynomials(shape: &Shape) -> Option<Along> {
+fn polynomials(shape: &Shape) -> Option<Along> {
     if shape.precision == Precision::Single || shape.dimension != 3 {
         return None;
     }
@@ -18,7 +36,7 @@ pub(super) fn polynomials(shape: &Shape) -> Option<Along> {
 }
 
 /// Casts the rays by roots.
-pub(super) fn cast<T: Send, F: Fn(Tile<'_>) -> T + Sync>(
+fn cast<T: Send, F: Fn(Tile<'_>) -> T + Sync>(
     (shape, along): (&Shape, &Along),
     scene: &Scene,
     aim: Aim<'_>,

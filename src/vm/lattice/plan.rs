@@ -204,6 +204,8 @@ impl Plan {
     fn pays(&self, program: &Program, lengths: &[usize], inner: usize, lanes: usize) -> bool {
         /// What it takes to begin an operation, and to take one apart.
         const BEGIN: usize = 40;
+        /// Lanes of a block, about.
+        const BLOCK: usize = 128;
         const APART: usize = 200;
         let points: usize = lengths.iter().product();
         let steps: usize = lengths[inner..].iter().product();
@@ -213,7 +215,9 @@ impl Plan {
             let weigh = |at: &u32| weight(&program.operations[*at as usize]);
             (own.len(), own.iter().map(weigh).sum::<usize>())
         });
-        let run = |(count, weight): (usize, usize), lanes: usize| weight * lanes.next_multiple_of(16) + count * BEGIN;
+        let run = |(count, weight): (usize, usize), lanes: usize| {
+            weight * lanes.next_multiple_of(16) + count * BEGIN * lanes.div_ceil(BLOCK)
+        };
         let laid = run(block, lanes) + run(table, steps) + run(plane, lanes) * planes + run(point, lanes) * steps;
         let all = (block.0 + table.0 + plane.0 + point.0, block.1 + table.1 + plane.1 + point.1);
         laid * pieces + all.0 * APART < run(all, points)
