@@ -13,8 +13,11 @@ pub mod svg;
 pub mod terminal;
 pub mod threemf;
 
+use std::io::{self, Write};
+
+use rayon::prelude::*;
+
 use crate::surface::mesh::Mesh;
-use std::io;
 
 /// A mesh as a file holds it: alone, one of several objects, a member of a group, or a frame.
 #[derive(Clone, Copy, Debug)]
@@ -52,14 +55,43 @@ fn fits_together(part: &Part<'_>) -> io::Result<()> {
     if mesh.triangles.is_empty() {
         return Err(refuse("there is no triangle to write"));
     }
-    if mesh.triangles.iter().flatten().any(|&corner| corner as usize >= count) {
+    if mesh.triangles.par_iter().any(|triangle| triangle.iter().any(|&corner| corner as usize >= count)) {
         return Err(refuse("a triangle names a vertex that the mesh does not have"));
     }
     if colours.is_some_and(|colours| colours.len() != count) {
         return Err(refuse(format!("{count} vertices need as many colours")));
     }
-    if !mesh.positions.iter().flatten().all(|&x| (x as f32).is_finite()) {
+    if !mesh.positions.par_iter().all(|p| p.iter().all(|&x| (x as f32).is_finite())) {
         return Err(refuse("a vertex lies beyond the range of single precision"));
     }
     Ok(())
+}
+
+/// Items that are turned to bytes together.
+const PIECE: usize = 4096;
+
+/// Writes what `make` appends for the items, which it is handed with the number of the first of them. While some are written, threads make
+/// the bytes of those behind; the bytes do not depend on how many threads there are.
+fn stream<T: Sync>(
+    items: &[T],
+    make: impl Fn(usize, &[T], &mut Vec<u8>) + Sync,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let length = PIECE * rayon::current_num_threads();
+    let fill = |first: usize, items: &[T], pieces: &mut Vec<Vec<u8>>| {
+        pieces.resize_with(items.len().div_ceil(PIECE), Vec::new);
+        pieces.par_iter_mut().zip(items.par_chunks(PIECE)).enumerate().for_each(|(n, (piece, items))| {
+            piece.clear();
+            make(first + n * PIECE, items, piece);
+        });
+    };
+    let (mut ready, mut next) = (Vec::new(), Vec::new());
+    for (n, items) in items.chunks(length).enumerate() {
+        rayon::in_place_scope(|scope| {
+            scope.spawn(|_| fill(n * length, items, &mut next));
+            ready.iter().try_for_each(|piece: &Vec<u8>| out.write_all(piece))
+        })?;
+        std::mem::swap(&mut ready, &mut next);
+    }
+    ready.iter().try_for_each(|piece| out.write_all(piece))
 }

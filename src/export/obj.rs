@@ -2,10 +2,9 @@
 //! (in single precision for normals). Objects under their names; colours behind the vertices, as most readers know them. The same
 //! parts give the same bytes.
 
-use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use super::{Part, fits_together, refuse};
+use super::{Part, fits_together, refuse, stream};
 
 /// Writes meshes, each as an object of its own.
 ///
@@ -31,46 +30,41 @@ pub fn write(parts: &[Part<'_>], out: &mut impl Write) -> io::Result<()> {
 fn object(part: &Part<'_>, first: u64, first_normal: u64, out: &mut impl Write) -> io::Result<()> {
     let mesh = part.mesh;
     writeln!(out, "o {}", word(part.name))?;
-    let positions = mesh.positions.iter().enumerate();
-    lines(positions, out, |text, (n, p)| {
-        vector(text, "v", p.map(|c| number(c + 0.0)));
-        if let Some(colours) = part.colours {
-            vector(text, "", colours[n].map(share));
-        }
-        text.push('\n');
-    })?;
-    lines(mesh.normals.iter(), out, |text, n| {
-        vector(text, "vn", n.map(|c| (c as f32 + 0.0).to_string()));
-        text.push('\n');
-    })?;
-    let smooth = !mesh.normals.is_empty();
-    lines(mesh.triangles.iter(), out, |text, triangle| {
-        text.push('f');
-        for &v in triangle {
-            // Writing to a string cannot fail.
-            let _ = write!(text, " {}", first + u64::from(v));
-            if smooth {
-                let _ = write!(text, "//{}", first_normal + u64::from(v));
+    let positions = |first: usize, positions: &[[f64; 3]], text: &mut Vec<u8>| {
+        for (n, p) in (first..).zip(positions) {
+            vector(text, "v", p.map(|c| number(c + 0.0)));
+            if let Some(colours) = part.colours {
+                vector(text, "", colours[n].map(share));
             }
+            text.push(b'\n');
         }
-        text.push('\n');
-    })
+    };
+    stream(&mesh.positions, positions, out)?;
+    let normals = |_: usize, normals: &[[f64; 3]], text: &mut Vec<u8>| {
+        for n in normals {
+            vector(text, "vn", n.map(|c| (c as f32 + 0.0).to_string()));
+            text.push(b'\n');
+        }
+    };
+    stream(&mesh.normals, normals, out)?;
+    let smooth = !mesh.normals.is_empty();
+    let faces = |_: usize, triangles: &[[u32; 3]], text: &mut Vec<u8>| {
+        for triangle in triangles {
+            text.push(b'f');
+            for &v in triangle {
+                // Writing to memory cannot fail.
+                let _ = write!(text, " {}", first + u64::from(v));
+                if smooth {
+                    let _ = write!(text, "//{}", first_normal + u64::from(v));
+                }
+            }
+            text.push(b'\n');
+        }
+    };
+    stream(&mesh.triangles, faces, out)
 }
 
-/// A line for each item, handed on some thousands at a time.
-fn lines<T>(mut items: impl Iterator<Item = T>, out: &mut impl Write, line: impl Fn(&mut String, T)) -> io::Result<()> {
-    let mut text = String::new();
-    loop {
-        text.clear();
-        items.by_ref().take(4096).for_each(|item| line(&mut text, item));
-        if text.is_empty() {
-            return Ok(());
-        }
-        out.write_all(text.as_bytes())?;
-    }
-}
-
-fn vector(text: &mut String, keyword: &str, [x, y, z]: [String; 3]) {
+fn vector(text: &mut Vec<u8>, keyword: &str, [x, y, z]: [String; 3]) {
     let _ = write!(text, "{keyword} {x} {y} {z}");
 }
 

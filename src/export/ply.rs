@@ -3,7 +3,7 @@
 
 use std::io::{self, Write};
 
-use super::{Part, fits_together};
+use super::{Part, fits_together, stream};
 
 /// Writes a mesh.
 ///
@@ -13,26 +13,23 @@ pub fn write(part: &Part<'_>, out: &mut impl Write) -> io::Result<()> {
     fits_together(part)?;
     out.write_all(header(part).as_bytes())?;
     let mesh = part.mesh;
-    let mut buffer = Vec::new();
-    for first in (0..mesh.positions.len()).step_by(4096) {
-        buffer.clear();
-        for v in first..(first + 4096).min(mesh.positions.len()) {
+    let vertices = |first: usize, positions: &[[f64; 3]], bytes: &mut Vec<u8>| {
+        for (v, position) in (first..).zip(positions) {
             let normal = mesh.normals.get(v).into_iter().flatten();
-            for number in mesh.positions[v].iter().chain(normal) {
-                buffer.extend_from_slice(&(*number as f32 + 0.0).to_le_bytes());
+            for number in position.iter().chain(normal) {
+                bytes.extend_from_slice(&(*number as f32 + 0.0).to_le_bytes());
             }
-            buffer.extend(part.colours.iter().flat_map(|colours| colours[v]));
+            bytes.extend(part.colours.iter().flat_map(|colours| colours[v]));
         }
-        out.write_all(&buffer)?;
-    }
-    for chunk in mesh.triangles.chunks(4096) {
-        buffer.clear();
-        for triangle in chunk {
-            buffer.push(3);
-            triangle.iter().for_each(|v| buffer.extend_from_slice(&v.to_le_bytes()));
+    };
+    stream(&mesh.positions, vertices, out)?;
+    let faces = |_: usize, triangles: &[[u32; 3]], bytes: &mut Vec<u8>| {
+        for triangle in triangles {
+            bytes.push(3);
+            triangle.iter().for_each(|v| bytes.extend_from_slice(&v.to_le_bytes()));
         }
-        out.write_all(&buffer)?;
-    }
+    };
+    stream(&mesh.triangles, faces, out)?;
     out.flush()
 }
 

@@ -3,7 +3,7 @@
 
 use std::io::{self, Write};
 
-use super::{Part, fits_together};
+use super::{Part, fits_together, stream};
 use crate::surface::mesh::{Mesh, cross, minus, unit};
 
 /// The first 80 bytes: what wrote it and of what. They never begin with `solid`, by which readers know the text form.
@@ -27,24 +27,21 @@ pub fn write(part: &Part<'_>, out: &mut impl Write) -> io::Result<()> {
         .map_err(|_| io::Error::new(io::ErrorKind::InvalidInput, "more triangles than STL can count"))?;
     out.write_all(&title(part.name))?;
     out.write_all(&count.to_le_bytes())?;
-    let mut buffer = Vec::with_capacity(50 * 1024);
-    for chunk in mesh.triangles.chunks(1024) {
-        buffer.clear();
-        for &triangle in chunk {
-            facet(mesh, triangle, &mut buffer);
-        }
-        out.write_all(&buffer)?;
-    }
+    stream(
+        &mesh.triangles,
+        |_, triangles, bytes| triangles.iter().for_each(|&triangle| bytes.extend_from_slice(&facet(mesh, triangle))),
+        out,
+    )?;
     out.flush()
 }
 
 /// 50 bytes: the normal of the rounded corners, the corners, no attributes.
-fn facet(mesh: &Mesh, triangle: [u32; 3], buffer: &mut Vec<u8>) {
+fn facet(mesh: &Mesh, triangle: [u32; 3]) -> [u8; 50] {
     let corners = mesh.corners(triangle).map(|p| p.map(|c| c as f32 + 0.0));
     let [a, b, c] = corners.map(|p| p.map(f64::from));
     let normal = unit(cross(minus(b, a), minus(c, a))).unwrap_or([0.0; 3]).map(|c| c as f32);
-    for number in std::iter::once(normal).chain(corners).flatten() {
-        buffer.extend_from_slice(&number.to_le_bytes());
-    }
-    buffer.extend_from_slice(&[0, 0]);
+    let mut bytes = [0; 50];
+    let numbers = std::iter::once(normal).chain(corners).flatten();
+    bytes.chunks_exact_mut(4).zip(numbers).for_each(|(bytes, number)| bytes.copy_from_slice(&number.to_le_bytes()));
+    bytes
 }

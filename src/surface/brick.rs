@@ -4,19 +4,22 @@
 //! A brick owns its points, the edges that start at them and the cells whose lowest corner they are. It evaluates the next plane of points on
 //! each axis too, so that it can find its own vertices; who joins them asks the owner for every sign.
 
+use std::hash::Hash;
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::boxes::{Block, Visitor, Walk, walk};
+use super::boxes::{Block, Lattice, Visitor, Walk, walk};
 use super::detail::{self, Detail};
 use super::grid::{BYTES_PER_VERTEX, Grid, LEAF};
 use super::marching::SurfaceError;
 use super::memory::Left;
-use super::mesh::unit;
-use super::roots::{Crossing, Roots};
+use super::mesh::{pieces, unit};
+use super::roots::{Edges, Roots, Samples, Source};
 use super::sampler::{Counters, Sampler};
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
+use crate::reuse::Digest;
 use crate::vm::{Program, Shape};
 
 /// Points along each side that a brick evaluates.
@@ -47,6 +50,12 @@ impl Brick {
         let bit = x + LEAF * y;
         let lower = self.crossed[axis][z] & ((1 << bit) - 1);
         self.first + u32::from(self.before[axis][z]) + lower.count_ones()
+    }
+
+    /// The number of the first vertex on the edges along an axis that start in plane z; the others follow in the order of their bits.
+    #[must_use]
+    pub fn first_vertex(&self, axis: usize, z: usize) -> u32 {
+        self.first + u32::from(self.before[axis][z])
     }
 
     fn count(crossed: &[[u64; LEAF]; 3]) -> ([[u16; LEAF]; 3], u16) {
@@ -115,15 +124,38 @@ impl Bricks {
     /// [`SurfaceError::Cancelled`] soon after the interrupt was set; [`SurfaceError::Memory`] as soon as there are more vertices than
     /// `Limits::memory_bytes` hold.
     pub fn survey(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Self, SurfaceError> {
+        Self::survey_with(shape, grid, true, limits, interrupt)
+    }
+
+    /// The same without normals.
+    ///
+    /// # Errors
+    /// As for [`Bricks::survey`].
+    pub fn survey_bare(
+        shape: &Shape,
+        grid: &Grid,
+        limits: &Limits,
+        interrupt: &Interrupt,
+    ) -> Result<Self, SurfaceError> {
+        Self::survey_with(shape, grid, false, limits, interrupt)
+    }
+
+    fn survey_with(
+        shape: &Shape,
+        grid: &Grid,
+        normal: bool,
+        limits: &Limits,
+        interrupt: &Interrupt,
+    ) -> Result<Self, SurfaceError> {
         let leaves = grid.leaves();
         let most_vertices = (limits.memory_bytes / BYTES_PER_VERTEX).min(INSIDE as usize - 1);
         if grid.estimated_bytes() > limits.memory_bytes as u64 {
             return Err(SurfaceError::Memory(limits.memory_bytes));
         }
         let found = AtomicUsize::new(0);
-        let gathering = |_: &Block| Gathering::new(grid, &found, most_vertices);
+        let gathering = |_: &Block| Gathering::new(grid, &found, most_vertices, normal);
         let Walk { visitors, counters } = walk(grid, shape, gathering, interrupt)?;
-        let vertices = visitors.iter().map(|visitor| visitor.part.positions.len()).sum::<usize>();
+        let vertices = visitors.iter().map(|visitor| visitor.part.along.len()).sum::<usize>();
         if vertices > most_vertices {
             return Err(SurfaceError::Memory(limits.memory_bytes));
         }
@@ -131,27 +163,35 @@ impl Bricks {
             grid: *grid,
             most_vertices,
             bricks: Vec::with_capacity(visitors.iter().map(|visitor| visitor.part.bricks.len()).sum()),
-            positions: Vec::with_capacity(vertices),
-            normals: Vec::with_capacity(vertices),
+            positions: Vec::new(),
+            normals: Vec::new(),
             counters,
             details: Vec::new(),
             directory: vec![OUTSIDE; leaves.iter().product()],
         };
         let mut suspects = Vec::new();
+        let mut parts = Vec::with_capacity(visitors.len());
+        let mut first = 0;
         for Gathering { part, .. } in visitors {
             suspects.extend_from_slice(&part.suspects);
             for block in &part.inside {
                 all.mark_inside(block);
             }
-            let first = all.positions.len() as u32;
+            let from = all.bricks.len();
             for brick in &part.bricks {
                 let place = all.place(brick.at);
                 all.directory[place] = all.bricks.len() as u32;
                 all.bricks.push(Brick { first: brick.first + first, ..brick.clone() });
             }
-            all.positions.extend_from_slice(&part.positions);
-            all.normals.extend_from_slice(&part.normals);
+            first += part.along.len() as u32;
+            parts.push((from..all.bricks.len(), part));
         }
+        all.normals = pieces(
+            parts.iter().collect(),
+            |(_, part)| part.normals.len(),
+            |(_, part), to| to.copy_from_slice(&part.normals),
+        );
+        all.positions = all.place_vertices(parts);
         interrupt.tick()?;
         all.details = detail::confirm(suspects, grid, |index| all.is_inside(index), shape, interrupt);
         Ok(all)
@@ -205,6 +245,31 @@ impl Bricks {
         at[0] + x * (at[1] + y * at[2])
     }
 
+    /// The positions of all vertices, from those of ranges of bricks along their edges.
+    fn place_vertices(&self, parts: Vec<(Range<usize>, Arc<Part>)>) -> Vec<[f64; 3]> {
+        let counts = self.grid.counts();
+        let axes: [Vec<f64>; 3] = std::array::from_fn(|d| (0..counts[d]).map(|i| self.grid.coordinate(d, i)).collect());
+        pieces(
+            parts,
+            |(_, part)| part.along.len(),
+            |(range, part), positions| {
+                let mut next = positions.iter_mut().zip(&part.along);
+                for brick in &self.bricks[range] {
+                    let from = brick.at.map(|at| LEAF * at);
+                    for (axis, words) in brick.crossed.iter().enumerate() {
+                        for (z, &word) in words.iter().enumerate() {
+                            for (bit, (position, &along)) in bits(word).zip(&mut next) {
+                                let [x, y] = [axes[0][from[0] + bit % LEAF], axes[1][from[1] + bit / LEAF]];
+                                *position = [x, y, axes[2][from[2] + z]];
+                                position[axis] = along;
+                            }
+                        }
+                    }
+                }
+            },
+        )
+    }
+
     fn mark_inside(&mut self, block: &Block) {
         let (from, to) = (block.from.map(|i| i / LEAF), block.to.map(|i| i.div_ceil(LEAF)));
         for z in from[2]..to[2] {
@@ -221,6 +286,7 @@ struct Gathering<'a> {
     grid: &'a Grid,
     found: &'a AtomicUsize,
     most: usize,
+    normal: bool,
     /// Shared only once the task is done.
     part: Arc<Part>,
     scratch: Scratch,
@@ -231,7 +297,8 @@ struct Gathering<'a> {
 struct Part {
     inside: Vec<Block>,
     bricks: Vec<Brick>,
-    positions: Vec<[f64; 3]>,
+    /// The coordinates of the vertices along their edges.
+    along: Vec<f64>,
     normals: Vec<[f64; 3]>,
     suspects: Vec<Detail>,
 }
@@ -240,7 +307,8 @@ impl Part {
     fn bytes(&self) -> usize {
         self.inside.capacity() * size_of::<Block>()
             + self.bricks.capacity() * size_of::<Brick>()
-            + (self.positions.capacity() + self.normals.capacity()) * size_of::<[f64; 3]>()
+            + self.along.capacity() * size_of::<f64>()
+            + self.normals.capacity() * size_of::<[f64; 3]>()
             + self.suspects.capacity() * size_of::<Detail>()
     }
 }
@@ -250,13 +318,14 @@ struct Scratch {
     columns: [Vec<f64>; 3],
     values: Vec<f64>,
     slopes: [Vec<f64>; 3],
-    crossings: Vec<Crossing>,
+    axes: [Vec<f64>; 3],
+    edges: Edges,
     roots: Roots,
 }
 
 impl<'a> Gathering<'a> {
-    fn new(grid: &'a Grid, found: &'a AtomicUsize, most: usize) -> Self {
-        Self { grid, found, most, part: Arc::default(), scratch: Scratch::default() }
+    fn new(grid: &'a Grid, found: &'a AtomicUsize, most: usize, normal: bool) -> Self {
+        Self { grid, found, most, normal, part: Arc::default(), scratch: Scratch::default() }
     }
 
     fn part(&mut self) -> &mut Part {
@@ -266,33 +335,36 @@ impl<'a> Gathering<'a> {
     /// Evaluates the block and the next plane on each axis; x fastest. Returns the points along each side.
     fn evaluate(&mut self, block: &Block, program: &Program, sampler: &mut Sampler) -> [usize; 3] {
         let side = std::array::from_fn(|d| (block.to[d] + 1).min(self.grid.cells[d] + 1) - block.from[d]);
-        let [xs, ys, zs]: [Vec<f64>; 3] =
-            std::array::from_fn(|d| (0..side[d]).map(|i| self.grid.coordinate(d, block.from[d] + i)).collect());
-        let values = &mut self.scratch.values;
-        values.clear();
-        values.resize(side.iter().product(), 0.0);
-        sampler.lattice(program, &[&xs[..], &ys, &zs][..self.grid.dimension()], values);
+        let scratch = &mut self.scratch;
+        for (d, axis) in scratch.axes.iter_mut().enumerate() {
+            axis.clear();
+            axis.extend((0..side[d]).map(|i| self.grid.coordinate(d, block.from[d] + i)));
+        }
+        let [x, y, z] = &scratch.axes;
+        scratch.values.clear();
+        scratch.values.resize(x.len() * y.len() * z.len(), 0.0);
+        sampler.lattice(program, &[&x[..], y, z][..self.grid.dimension()], &mut scratch.values);
         side
     }
 
-    /// Vertices and normals on all crossings in the scratch.
+    /// Vertices on all edges in the scratch, and their normals if they are wanted.
     fn solve(&mut self, program: &Program, sampler: &mut Sampler) {
         let dimension = self.grid.dimension();
-        let Scratch { columns, values, slopes, crossings, roots } = &mut self.scratch;
+        let Scratch { columns, values, slopes, axes, edges, roots } = &mut self.scratch;
+        edges.load(Samples { axes, values, epsilon: sampler.epsilon() });
         let part = Arc::make_mut(&mut self.part);
-        let first = part.positions.len();
-        roots.solve(crossings, dimension, program, sampler, &mut part.positions);
-        let found = &part.positions[first..];
-        for (axis, column) in columns.iter_mut().enumerate() {
-            column.clear();
-            column.extend(found.iter().map(|p| p[axis]));
-            slopes[axis].clear();
-            slopes[axis].resize(found.len(), 0.0);
+        let first = part.along.len();
+        roots.solve(edges, &mut Source { sampler, program, dimension }, &mut part.along);
+        if !self.normal {
+            return;
         }
-        values.clear();
+        let found = &part.along[first..];
+        edges.columns(found, columns);
+        slopes.iter_mut().for_each(|slopes| slopes.resize(found.len(), 0.0));
         values.resize(found.len(), 0.0);
         let [x, y, z] = &columns;
         let [a, b, c] = slopes;
+        c.fill(0.0);
         sampler.slopes(program, &[&x[..], y, z][..dimension], values, &mut [&mut a[..], b, c][..dimension]);
         let slopes = a.iter().zip(b.iter()).zip(c.iter());
         part.normals.extend(slopes.map(|((&a, &b), &c)| unit([-a, -b, -c]).unwrap_or([0.0; 3])));
@@ -300,6 +372,10 @@ impl<'a> Gathering<'a> {
 }
 
 impl Visitor for Gathering<'_> {
+    fn tell(&self, to: &mut Digest) {
+        self.normal.hash(to);
+    }
+
     /// Nothing of what was broken off.
     fn keep(&mut self) -> Option<Left> {
         let is_whole = self.found.load(Ordering::Relaxed) <= self.most;
@@ -308,7 +384,7 @@ impl Visitor for Gathering<'_> {
 
     fn recall(&mut self, left: &Left) -> bool {
         let Ok(part) = left.what.clone().downcast::<Part>() else { return false };
-        self.found.fetch_add(part.positions.len(), Ordering::Relaxed);
+        self.found.fetch_add(part.along.len(), Ordering::Relaxed);
         self.part = part;
         true
     }
@@ -342,35 +418,17 @@ impl Visitor for Gathering<'_> {
         let at = block.from.map(|i| i / LEAF);
         let crossed: [[u64; LEAF]; 3] = std::array::from_fn(|axis| signs.crossed(axis, side));
         let (before, count) = Brick::count(&crossed);
-        let first = self.part.positions.len() as u32;
+        let first = self.part.along.len() as u32;
         self.part().bricks.push(Brick { at, inside: signs.owned(), crossed, before, first });
         self.found.fetch_add(usize::from(count), Ordering::Relaxed);
-        self.scratch.crossings.clear();
-        self.scratch.crossings.reserve(usize::from(count));
+        let edges = &mut self.scratch.edges;
+        edges.clear();
         for (axis, words) in crossed.iter().enumerate() {
             for (z, &word) in words.iter().enumerate() {
-                for bit in bits(word) {
-                    let crossing = self.crossing(block, side, [bit % LEAF, bit / LEAF, z], axis);
-                    self.scratch.crossings.push(crossing);
-                }
+                bits(word).for_each(|bit| edges.push(axis, [bit % LEAF, bit / LEAF, z]));
             }
         }
         self.solve(program, sampler);
-    }
-}
-
-impl Gathering<'_> {
-    fn crossing(&self, block: &Block, side: [usize; 3], at: [usize; 3], axis: usize) -> Crossing {
-        let stride = [1, side[0], side[0] * side[1]];
-        let here = at[0] + at[1] * stride[1] + at[2] * stride[2];
-        let index: [usize; 3] = std::array::from_fn(|d| block.from[d] + at[d]);
-        let values = &self.scratch.values;
-        Crossing {
-            start: self.grid.point(index),
-            axis,
-            end: self.grid.coordinate(axis, index[axis] + 1),
-            values: [values[here], values[here + stride[axis]]],
-        }
     }
 }
 

@@ -5,10 +5,14 @@
 //! Not checked: whether triangles cut through each other.
 
 use std::fmt;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::prelude::*;
 
 use super::mesh::Mesh;
+
+/// Triangles about a vertex that are few: it is quicker to look through them than to sort them.
+const FEW: usize = 32;
 
 /// What is wrong with a mesh, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +85,7 @@ pub fn check(mesh: &Mesh) -> Result<Topology, Fault> {
     let triangles = mesh.triangles.len();
     let edges = triangles * 3 / 2;
     let euler = vertices as i64 - edges as i64 + triangles as i64;
-    let components = components(mesh);
+    let components = components(mesh, |v| corners.start[v] < corners.start[v + 1]);
     Ok(Topology { vertices, edges, triangles, euler, components, genus: components as i64 - euler / 2 })
 }
 
@@ -95,6 +99,9 @@ fn check_vertices(mesh: &Mesh) -> Result<(), Fault> {
     if let Some(v) = mesh.positions.par_iter().position_first(is_bad) {
         return Err(Fault::NotFinite(v));
     }
+    if !has_twins(&mesh.positions) {
+        return Ok(());
+    }
     let mut rounded: Vec<([u32; 3], usize)> =
         mesh.positions.par_iter().enumerate().map(|(v, &p)| (single(p), v)).collect();
     rounded.par_sort_unstable();
@@ -103,6 +110,31 @@ fn check_vertices(mesh: &Mesh) -> Result<(), Fault> {
         Some((a, b)) => Err(Fault::Coincident(a, b, mesh.positions[a])),
         None => Ok(()),
     }
+}
+
+/// Whether two vertices are one in single precision: each is put into a table at the place of its hash, or behind it. Which of two comes
+/// first depends on the threads; whether there are two does not.
+fn has_twins(positions: &[[f64; 3]]) -> bool {
+    let size = (2 * positions.len()).next_power_of_two().max(2);
+    let shift = 64 - size.trailing_zeros();
+    let places: Vec<AtomicU32> = (0..size).into_par_iter().map(|_| AtomicU32::new(u32::MAX)).collect();
+    positions.par_iter().enumerate().with_min_len(1024).any(|(v, &position)| {
+        let bits = single(position);
+        let mut at = (hash(bits) >> shift) as usize;
+        loop {
+            match places[at].compare_exchange(u32::MAX, v as u32, Ordering::Relaxed, Ordering::Relaxed) {
+                Ok(_) => return false,
+                Err(other) if single(positions[other as usize]) == bits => return true,
+                Err(_) => at = (at + 1) % size,
+            }
+        }
+    })
+}
+
+/// A number whose upper bits depend on all bits: multiplied by large odd constants.
+fn hash([a, b, c]: [u32; 3]) -> u64 {
+    let mixed = (u64::from(a) | u64::from(b) << 32).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    (mixed.rotate_left(29) ^ u64::from(c)).wrapping_mul(0xd6e8_feb8_6659_fd93)
 }
 
 fn check_triangles(mesh: &Mesh) -> Result<(), Fault> {
@@ -124,42 +156,81 @@ struct Corners {
 }
 
 impl Corners {
+    /// Each thread looks at all triangles and gathers those about its own range of vertices.
     fn of(mesh: &Mesh) -> Self {
-        let mut start = vec![0; mesh.positions.len() + 1];
-        for &v in mesh.triangles.iter().flatten() {
-            start[v as usize + 1] += 1;
-        }
+        let (count, corners) = (mesh.positions.len(), mesh.triangles.len() * 3);
+        let range = count.div_ceil(rayon::current_num_threads()).max(1);
+        let mut start = vec![0; count + 1];
+        start[1..].par_chunks_mut(range).enumerate().for_each(|(n, counts)| {
+            for &v in mesh.triangles.iter().flatten() {
+                if let Some(count) = counts.get_mut((v as usize).wrapping_sub(n * range)) {
+                    *count += 1;
+                }
+            }
+        });
         for i in 1..start.len() {
             start[i] += start[i - 1];
         }
-        let mut free = start.clone();
-        let mut sides = vec![[0; 2]; mesh.triangles.len() * 3];
-        for &[a, b, c] in &mesh.triangles {
-            for [v, next, last] in [[a, b, c], [b, c, a], [c, a, b]] {
-                sides[free[v as usize]] = [next, last];
-                free[v as usize] += 1;
+        let mut sides = vec![[0; 2]; corners];
+        let mut rest = &mut sides[..];
+        let parts: Vec<&mut [[u32; 2]]> = (0..count)
+            .step_by(range)
+            .map(|from| {
+                let own = start[count.min(from + range)] - start[from];
+                rest.split_off_mut(..own).unwrap_or_default()
+            })
+            .collect();
+        parts.into_par_iter().enumerate().for_each(|(n, sides)| {
+            let from = n * range;
+            let base = start[from];
+            let mut free = start[from..count.min(from + range)].to_vec();
+            for &[a, b, c] in &mesh.triangles {
+                for [v, next, last] in [[a, b, c], [b, c, a], [c, a, b]] {
+                    if let Some(free) = free.get_mut((v as usize).wrapping_sub(from)) {
+                        sides[*free - base] = [next, last];
+                        *free += 1;
+                    }
+                }
+            }
+        });
+        Self { start, sides }
+    }
+
+    /// Whether a way from triangle to triangle about a vertex passes all of a few and ends where it began. Then all outgoing edges differ,
+    /// or the way would never come to the second of two equal ones, and each has its reverse.
+    fn is_fan(about: &[[u32; 2]]) -> bool {
+        let mut at = 0;
+        for turn in 1..=about.len() {
+            let Some(next) = about.iter().position(|side| side[0] == about[at][1]) else { return false };
+            at = next;
+            if at == 0 {
+                return turn == about.len();
             }
         }
-        Self { start, sides }
+        about.is_empty()
     }
 
     /// What is wrong about vertex v. Its outgoing edges must differ, its incoming ones be their reverses, and going round from triangle
     /// to triangle must pass all of them.
     fn fault(&self, mesh: &Mesh, v: usize) -> Option<Fault> {
         let about = &self.sides[self.start[v]..self.start[v + 1]];
+        if about.len() <= FEW && Self::is_fan(about) {
+            return None;
+        }
         let (from, place) = (mesh.positions[v], |v: u32| mesh.positions[v as usize]);
         let mut outgoing = about.to_vec();
         outgoing.sort_unstable();
+        let find = |other: u32| outgoing.partition_point(|side| side[0] < other);
+        let is_there = |other: u32| outgoing.get(find(other)).is_some_and(|side| side[0] == other);
         if let Some(pair) = outgoing.windows(2).find(|pair| pair[0][0] == pair[1][0]) {
             return Some(Fault::Repeated(from, place(pair[0][0])));
         }
-        let find = |other: u32| outgoing.binary_search_by_key(&other, |side| side[0]);
-        if let Some(side) = about.iter().find(|side| find(side[1]).is_err()) {
+        if let Some(side) = about.iter().find(|side| !is_there(side[1])) {
             return Some(Fault::Open(place(side[1]), from));
         }
         let mut at = 0;
         for turn in 1..=outgoing.len() {
-            at = find(outgoing[at][1]).unwrap_or(0);
+            at = find(outgoing[at][1]);
             if at == 0 {
                 return (turn < outgoing.len()).then_some(Fault::Fans(from));
             }
@@ -168,26 +239,41 @@ impl Corners {
     }
 }
 
-/// Connected parts: sets of vertices joined by triangles.
-fn components(mesh: &Mesh) -> usize {
-    let mut parent: Vec<u32> = (0..mesh.positions.len() as u32).collect();
-    for &[a, b, c] in &mesh.triangles {
-        for other in [b, c] {
-            let (p, q) = (root(&mut parent, a), root(&mut parent, other));
-            parent[p.max(q) as usize] = p.min(q);
+/// Connected parts: sets of vertices joined by triangles. Sets are trees that hang from their smallest vertices; threads join them at once,
+/// and how many there are does not depend on who came first.
+fn components(mesh: &Mesh, is_used: impl Fn(usize) -> bool + Sync) -> usize {
+    let count = mesh.positions.len();
+    let parents: Vec<AtomicU32> = (0..count as u32).into_par_iter().map(AtomicU32::new).collect();
+    mesh.triangles.par_iter().with_min_len(1024).for_each(|&[a, b, c]| {
+        join(&parents, a, b);
+        join(&parents, a, c);
+    });
+    (0..count).into_par_iter().filter(|&v| is_used(v) && parents[v].load(Ordering::Relaxed) as usize == v).count()
+}
+
+/// Makes one set of those of two vertices.
+fn join(parents: &[AtomicU32], a: u32, b: u32) {
+    let (mut p, mut q) = (root(parents, a), root(parents, b));
+    while p != q {
+        let (low, high) = (p.min(q), p.max(q));
+        // Only a root gets a parent; if it is none any more, the way up goes on.
+        if parents[high as usize].compare_exchange(high, low, Ordering::Relaxed, Ordering::Relaxed).is_ok() {
+            return;
         }
+        (p, q) = (root(parents, low), root(parents, high));
     }
-    let mut is_used = vec![false; parent.len()];
-    mesh.triangles.iter().flatten().for_each(|&v| is_used[v as usize] = true);
-    (0..parent.len()).filter(|&v| is_used[v] && parent[v] as usize == v).count()
 }
 
 /// The root of a vertex; halves the path to it.
-fn root(parent: &mut [u32], mut v: u32) -> u32 {
-    while parent[v as usize] != v {
-        let above = parent[parent[v as usize] as usize];
-        parent[v as usize] = above;
+fn root(parents: &[AtomicU32], mut v: u32) -> u32 {
+    loop {
+        let parent = parents[v as usize].load(Ordering::Relaxed);
+        let above = parents[parent as usize].load(Ordering::Relaxed);
+        if parent == above {
+            return parent;
+        }
+        // A vertex further up is always right as a parent.
+        parents[v as usize].store(above, Ordering::Relaxed);
         v = above;
     }
-    v
 }

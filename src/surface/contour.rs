@@ -72,7 +72,7 @@ fn outline(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -
     if shape.dimension != 2 || grid.dimension() != 2 {
         return Err(SurfaceError::Dimension(shape.dimension, 2));
     }
-    let mut bricks = Bricks::survey(shape, grid, limits, interrupt)?;
+    let mut bricks = Bricks::survey_bare(shape, grid, limits, interrupt)?;
     let mut report = Report {
         counters: std::mem::take(&mut bricks.counters),
         samples: grid.counts().iter().map(|&n| n as u64).product(),

@@ -5,6 +5,7 @@
 //! about parts that lie between sample points.
 
 use std::fmt;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
@@ -13,7 +14,7 @@ use super::brick::{Brick, Bricks, Leaf, bits};
 use super::cap::{Caps, close};
 use super::detail::Detail;
 use super::grid::{Grid, LEAF};
-use super::mesh::{Mesh, cross, minus, unit};
+use super::mesh::{Mesh, cross, minus, pieces, unit};
 use super::sampler::{Counters, Sampler};
 use super::sharp::Sharpened;
 use super::table::{CASES, Edge, edge_start};
@@ -90,20 +91,44 @@ impl From<Cancelled> for SurfaceError {
 /// # Errors
 /// See [`SurfaceError`].
 pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Extraction, SurfaceError> {
-    let make = || match extract_once(shape, grid, limits, interrupt) {
+    extract_with(shape, grid, true, limits, interrupt)
+}
+
+/// The same without normals, for whatever has no use for them: [`Mesh::normals`] stays empty.
+///
+/// # Errors
+/// See [`SurfaceError`].
+pub fn extract_bare(
+    shape: &Shape,
+    grid: &Grid,
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<Extraction, SurfaceError> {
+    extract_with(shape, grid, false, limits, interrupt)
+}
+
+fn extract_with(
+    shape: &Shape,
+    grid: &Grid,
+    normals: bool,
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<Extraction, SurfaceError> {
+    let make = || match extract_once(shape, grid, normals, limits, interrupt) {
         // Single precision, which took another branch than the intervals did.
         Err(SurfaceError::Contradiction(_)) if shape.precision == Precision::Single => {
             let double = Shape { precision: Precision::Double, ..shape.clone() };
-            extract_once(&double, grid, limits, interrupt)
+            extract_once(&double, grid, normals, limits, interrupt)
         }
         result => result,
     };
     let tell = |to: &mut Digest| {
         shape.tell(to);
-        to.shown(&(grid, limits.memory_bytes));
+        to.shown(&(grid, limits.memory_bytes, normals));
     };
     let bytes = |of: &Extraction| {
-        of.mesh.positions.len() * size_of::<[[f64; 3]; 2]>() + of.mesh.triangles.len() * size_of::<[u32; 3]>()
+        (of.mesh.positions.len() + of.mesh.normals.len()) * size_of::<[f64; 3]>()
+            + of.mesh.triangles.len() * size_of::<[u32; 3]>()
     };
     interrupt.whole("meshes", tell, bytes, make)
 }
@@ -111,6 +136,7 @@ pub fn extract(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrup
 fn extract_once(
     shape: &Shape,
     grid: &Grid,
+    normals: bool,
     limits: &Limits,
     interrupt: &Interrupt,
 ) -> Result<Extraction, SurfaceError> {
@@ -119,7 +145,8 @@ fn extract_once(
     }
     let mut bricks = {
         let _phase = interrupt.phase("boxes");
-        Bricks::survey(shape, grid, limits, interrupt)?
+        let survey = if normals { Bricks::survey } else { Bricks::survey_bare };
+        survey(shape, grid, limits, interrupt)?
     };
     let _phase = interrupt.phase("mesh");
     let samples = grid.counts().iter().map(|&n| n as u64).product();
@@ -145,36 +172,90 @@ fn extract_once(
     }
     interrupt.tick()?;
     mesh.positions.extend_from_slice(&caps.positions);
-    mesh.normals.extend_from_slice(&caps.normals);
     mesh.triangles = triangles;
-    mend(&mut mesh, uncapped);
+    if normals {
+        mesh.normals.extend_from_slice(&caps.normals);
+        mend(&mut mesh, uncapped);
+    }
     Ok(Extraction { mesh, own, report })
 }
 
-/// The triangles of all cells between sample points, in the order of the bricks.
+/// The triangles of all cells between sample points, in the order of the bricks: counted first, then written where they belong.
 fn join(bricks: &Bricks, interrupt: &Interrupt) -> Result<Vec<[u32; 3]>, SurfaceError> {
-    let corners = corners_of_cases();
-    let parts: Vec<Vec<[u32; 3]>> = bricks
+    let cases = Cases::new();
+    let chunks: Vec<(&[Brick], usize)> = bricks
         .bricks
         .par_chunks(64)
         .map(|chunk| {
-            interrupt.tick()?;
-            let mut triangles = Vec::new();
-            for brick in chunk {
-                Neighbourhood::of(bricks, brick).join(&corners, &mut triangles)?;
-            }
-            Ok(triangles)
+            let count = |brick| Neighbourhood::of(bricks, brick).count(&cases);
+            (chunk, chunk.iter().map(count).sum())
         })
-        .collect::<Result<_, SurfaceError>>()?;
-    Ok(parts.concat())
+        .collect();
+    interrupt.tick()?;
+    // The first place where signs contradict each other, by the order of the bricks.
+    let fault: Mutex<Option<([usize; 3], [f64; 3])>> = Mutex::new(None);
+    let triangles = pieces(
+        chunks,
+        |(_, count)| *count,
+        |(chunk, _), mut triangles| {
+            if interrupt.is_cancelled() {
+                return;
+            }
+            let mut numbers = Numbers::default();
+            for brick in chunk {
+                let neighbourhood = Neighbourhood::of(bricks, brick);
+                match neighbourhood.join(&cases, &mut numbers, triangles) {
+                    Ok(rest) => triangles = rest,
+                    Err(at) => {
+                        let mut fault = fault.lock().unwrap_or_else(PoisonError::into_inner);
+                        if fault.is_none_or(|(other, _)| brick.at < other) {
+                            *fault = Some((brick.at, at));
+                        }
+                        return;
+                    }
+                }
+            }
+        },
+    );
+    interrupt.tick()?;
+    match fault.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some((_, at)) => Err(SurfaceError::Contradiction(at)),
+        None => Ok(triangles),
+    }
 }
 
-/// A corner of a triangle in a case: where its edge starts in the cell, and the edge's axis.
-type Corner = ([usize; 3], usize);
+/// Points along each side of a brick and the next plane.
+const SIDE: usize = LEAF + 1;
 
-/// The table with its edges looked up.
-fn corners_of_cases() -> Vec<Vec<[Corner; 3]>> {
-    CASES.iter().map(|case| case.iter().map(|t: &[Edge; 3]| t.map(edge_start)).collect()).collect()
+/// From one point to the next along each axis.
+const STRIDE: [usize; 3] = [1, SIDE, SIDE * SIDE];
+
+/// Points in all.
+const POINTS: usize = SIDE * SIDE * SIDE;
+
+/// Numbers of vertices, by the axis of the edge and the point where it starts.
+struct Numbers([u32; 3 * POINTS]);
+
+/// No vertex.
+const NONE: u32 = u32::MAX;
+
+impl Default for Numbers {
+    fn default() -> Self {
+        Self([NONE; 3 * POINTS])
+    }
+}
+
+/// The table with its edges as places among [`Numbers`], relative to the cell's lowest corner.
+struct Cases(Vec<Vec<[usize; 3]>>);
+
+impl Cases {
+    fn new() -> Self {
+        let place = |edge: Edge| {
+            let (start, axis) = edge_start(edge);
+            axis * POINTS + start.iter().zip(STRIDE).map(|(at, stride)| at * stride).sum::<usize>()
+        };
+        Self(CASES.iter().map(|case| case.iter().map(|t: &[Edge; 3]| t.map(place)).collect()).collect())
+    }
 }
 
 /// A brick and the seven leaves that hold the far corners of its cells, by bits x, y, z.
@@ -194,7 +275,7 @@ impl<'a> Neighbourhood<'a> {
     }
 
     /// The signs of 9 x 9 x 9 points, bit x of row (z, y).
-    fn rows(&self) -> [[u16; LEAF + 1]; LEAF + 1] {
+    fn rows(&self) -> [[u16; SIDE]; SIDE] {
         let words: [[u64; LEAF]; 8] = std::array::from_fn(|n| self.leaves[n].inside());
         std::array::from_fn(|z| {
             std::array::from_fn(|y| {
@@ -205,8 +286,33 @@ impl<'a> Neighbourhood<'a> {
         })
     }
 
-    /// Appends the triangles of the brick's cells.
-    fn join(&self, corners: &[Vec<[Corner; 3]>], triangles: &mut Vec<[u32; 3]>) -> Result<(), SurfaceError> {
+    /// Writes the numbers of the vertices on all edges that start at those points.
+    fn number(&self, numbers: &mut Numbers) {
+        numbers.0.fill(NONE);
+        for (n, leaf) in self.leaves.iter().enumerate() {
+            let Leaf::Mixed(brick) = leaf else { continue };
+            let far: [usize; 3] = std::array::from_fn(|d| n >> d & 1);
+            // Of a neighbour the points of its first plane, row or corner alone.
+            let mask = [u64::MAX, 0x0101_0101_0101_0101][far[0]] & [u64::MAX, 0xff][far[1]];
+            let corner = far.iter().zip(STRIDE).map(|(far, stride)| far * LEAF * stride).sum::<usize>();
+            for axis in 0..3 {
+                for z in 0..[LEAF, 1][far[2]] {
+                    let plane = axis * POINTS + corner + z * STRIDE[2];
+                    let word = brick.crossed[axis][z];
+                    let mut next = brick.first_vertex(axis, z);
+                    for bit in bits(word & mask) {
+                        let number = if n == 0 { next } else { brick.vertex([bit % LEAF, bit / LEAF, z], axis) };
+                        numbers.0[plane + bit % LEAF + bit / LEAF * STRIDE[1]] = number;
+                        next += 1;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Calls `f` with the lowest corner of each of the brick's cells that are crossed, and its case.
+    #[inline(always)]
+    fn each(&self, mut f: impl FnMut([usize; 3], usize)) {
         let rows = self.rows();
         let cells: [usize; 3] = std::array::from_fn(|d| (self.grid.cells[d] - LEAF * self.at[d]).min(LEAF));
         for z in 0..cells[2] {
@@ -216,31 +322,46 @@ impl<'a> Neighbourhood<'a> {
                 let all = four[0] & four[1] & four[2] & four[3];
                 let mixed = (any | any >> 1) & !(all & all >> 1) & ((1 << cells[0]) - 1);
                 for x in bits(u64::from(mixed)) {
-                    let case = (0..4).fold(0, |case, i| case | usize::from(four[i] >> x & 3) << (2 * i));
-                    for triangle in &corners[case] {
-                        let mut vertices = [0; 3];
-                        for (vertex, &([dx, dy, dz], axis)) in vertices.iter_mut().zip(triangle) {
-                            let at = [x + dx, y + dy, z + dz];
-                            *vertex = self.vertex(at, axis).ok_or_else(|| self.contradiction(at))?;
-                        }
-                        triangles.push(vertices);
-                    }
+                    f([x, y, z], (0..4).fold(0, |case, i| case | usize::from(four[i] >> x & 3) << (2 * i)));
                 }
             }
         }
-        Ok(())
     }
 
-    /// The vertex on the edge that starts at a point of the neighbourhood.
-    fn vertex(&self, [x, y, z]: [usize; 3], axis: usize) -> Option<u32> {
-        match &self.leaves[x / LEAF + 2 * (y / LEAF) + 4 * (z / LEAF)] {
-            Leaf::Mixed(brick) => Some(brick.vertex([x % LEAF, y % LEAF, z % LEAF], axis)),
-            _ => None,
+    /// How many triangles the brick's cells have.
+    fn count(&self, cases: &Cases) -> usize {
+        let mut count = 0;
+        self.each(|_, case| count += cases.0[case].len());
+        count
+    }
+
+    /// Writes the triangles of the brick's cells and gives back what is behind them.
+    ///
+    /// # Errors
+    /// A place where signs contradict each other.
+    fn join<'t>(
+        &self,
+        cases: &Cases,
+        numbers: &mut Numbers,
+        triangles: &'t mut [[u32; 3]],
+    ) -> Result<&'t mut [[u32; 3]], [f64; 3]> {
+        self.number(numbers);
+        let (mut next, mut wrong) = (0, None);
+        self.each(|at, case| {
+            let cell = at.iter().zip(STRIDE).map(|(at, stride)| at * stride).sum::<usize>();
+            for places in &cases.0[case] {
+                let triangle = places.map(|place| numbers.0[cell + place]);
+                if triangle.contains(&NONE) {
+                    wrong = wrong.or(Some(at));
+                }
+                triangles[next] = triangle;
+                next += 1;
+            }
+        });
+        match wrong {
+            Some(at) => Err(self.grid.point(std::array::from_fn(|d| LEAF * self.at[d] + at[d]))),
+            None => Ok(&mut triangles[next..]),
         }
-    }
-
-    fn contradiction(&self, at: [usize; 3]) -> SurfaceError {
-        SurfaceError::Contradiction(self.grid.point(std::array::from_fn(|d| LEAF * self.at[d] + at[d])))
     }
 }
 

@@ -1,5 +1,7 @@
 //! Triangle meshes: vertices by number, with normals. Never promises more than its maker: see [`super::check()`].
 
+use rayon::prelude::*;
+
 /// A triangle mesh. Triangles turn counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
@@ -35,6 +37,25 @@ impl Mesh {
             (std::array::from_fn(|d| lo[d].min(p[d])), std::array::from_fn(|d| hi[d].max(p[d])))
         }))
     }
+}
+
+/// An array of triples made of pieces, one for each part behind each other: how long each is, and what fills it. Threads fill them at once,
+/// since the memory is new to the process and is mapped where it is first touched.
+pub(super) fn pieces<P: Send, T: Copy + Default + Send>(
+    parts: Vec<P>,
+    length: impl Fn(&P) -> usize,
+    fill: impl Fn(P, &mut [[T; 3]]) + Sync,
+) -> Vec<[T; 3]> {
+    let mut all = vec![[T::default(); 3]; parts.iter().map(&length).sum()];
+    let mut rest = &mut all[..];
+    let mut places = Vec::with_capacity(parts.len());
+    for part in &parts {
+        let (place, behind) = rest.split_at_mut(length(part));
+        places.push(place);
+        rest = behind;
+    }
+    places.into_par_iter().zip(parts).for_each(|(place, part)| fill(part, place));
+    all
 }
 
 /// `a - b`.

@@ -1,7 +1,7 @@
 //! Boundaries of functions: the box hierarchy, marching cubes, checks, measures. Knows no language and no files.
 //!
 //! The way of a mesh: [`grid`] says where the sample points lie, [`boxes`] finds the undecided leaves among them, [`brick`] evaluates a leaf
-//! and finds a vertex on each crossed edge ([`roots`]), [`marching`] joins the vertices to triangles ([`table`]), [`cap`] closes the object
+//! and finds a vertex on each crossed edge ([`guess`], [`roots`]), [`marching`] joins the vertices to triangles ([`table`]), [`cap`] closes the object
 //! at the faces of the modelling space. [`check()`] proves the mesh closed, [`measure()`] integrates over it, [`contour`] does the same for
 //! 2-D shapes. [`sharp`] puts creases into a mesh that is there. [`space`] finds the modelling space when nobody gave one.
 
@@ -16,6 +16,7 @@ pub mod edit;
 pub mod estimate;
 pub mod figure;
 pub mod grid;
+pub mod guess;
 pub mod line;
 pub mod marching;
 pub mod measure;

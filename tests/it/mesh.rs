@@ -10,6 +10,7 @@ use yont::surface::boxes::{Block, Lattice, Visitor, Walk, walk};
 use yont::surface::brick::Bricks;
 use yont::surface::check::{Fault, Topology};
 use yont::surface::grid::BYTES_PER_VERTEX;
+use yont::surface::marching::extract_bare;
 use yont::surface::mesh::{cross, dot, minus};
 use yont::surface::sampler::{Sampler, span};
 use yont::surface::{Extraction, Grid, GridError, Mesh, SurfaceError, check, extract};
@@ -302,6 +303,57 @@ fn vertices_lie_on_the_boundary() {
     }
 }
 
+#[test]
+fn vertices_are_where_the_sign_changes_along_their_edges() {
+    let mut checked = 0;
+    for case in KNOWN {
+        let (mesh, grid) = (case.extract(33).mesh, case.grid(33));
+        let values = shape_of(case.field, 3, Demand::Value);
+        let (mut found, mut all) = (0, 0);
+        for p in &mesh.positions {
+            let cell = grid.cell();
+            let place: [f64; 3] = std::array::from_fn(|d| (p[d] - grid.lo[d]) / cell[d]);
+            let off = |d: &usize| (place[*d] - place[*d].round()).abs() > 1e-5;
+            // Vertices that are kept off the ends of their edges, and those of caps, have no such axis.
+            let Some(axis) = (0..3).find(off) else { continue };
+            let columns: [Vec<f64>; 3] = std::array::from_fn(|d| {
+                let step = if d == axis { 1e-7 * cell[d] } else { 0.0 };
+                vec![p[d] - step, p[d] + step]
+            });
+            let mut out = [0.0; 2];
+            Points::<f64>::new().eval(&values.program, &[&columns[0], &columns[1], &columns[2]], &mut out);
+            found += usize::from((out[0] >= 0.0) != (out[1] >= 0.0));
+            all += 1;
+        }
+        assert!(found * 1000 >= all * 999, "{}: {found} of {all}", case.name);
+        checked += all;
+    }
+    assert!(checked > 1000, "{checked}");
+}
+
+#[test]
+fn a_mesh_without_normals_is_otherwise_the_same() {
+    for case in KNOWN.iter().chain(HARD) {
+        let grid = case.grid(21);
+        let bare = extract_bare(&case.shape(), &grid, &Limits::default(), &Interrupt::default()).expect("a mesh").mesh;
+        let mesh = case.extract(21).mesh;
+        assert!(bare.normals.is_empty() && mesh.normals.len() == mesh.positions.len(), "{}", case.name);
+        assert!(bare.positions == mesh.positions && bare.triangles == mesh.triangles, "{}", case.name);
+    }
+}
+
+#[test]
+fn a_file_that_is_written_in_pieces_has_each_triangle_in_its_place() {
+    let mesh = KNOWN[0].extract(60).mesh;
+    let whole = stl_bytes(&mesh);
+    assert!(mesh.triangles.len() > 3 * 4096, "more than some pieces");
+    for (n, &triangle) in mesh.triangles.iter().enumerate() {
+        let one = Mesh { positions: mesh.corners(triangle).to_vec(), triangles: vec![[0, 1, 2]], ..Mesh::default() };
+        let from = 84 + 50 * n;
+        assert_eq!(stl_bytes(&one)[84..], whole[from..from + 50], "triangle {n}");
+    }
+}
+
 /// A lattice of unit steps that reaches from -counts/2 to counts/2, and a visitor that keeps what it sees.
 struct Steps {
     counts: [usize; 3],
@@ -470,4 +522,30 @@ fn the_checker_finds_every_kind_of_fault() {
         m.triangles.extend([[0, 4, 5], [0, 6, 4], [4, 6, 5], [5, 6, 0]]);
     };
     assert!(matches!(fault(&two), Fault::Fans(_)), "two tetrahedra that share a vertex");
+}
+
+/// Two fans of many triangles, one above the other, about a ring.
+fn spindle(count: u32) -> Mesh {
+    let turn = |k: u32| f64::from(k) / f64::from(count) * std::f64::consts::TAU;
+    let ring = (0..count).map(|k| [turn(k).cos(), turn(k).sin(), 0.0]);
+    let next = |k: u32| 2 + (k + 1) % count;
+    Mesh {
+        positions: [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]].into_iter().chain(ring).collect(),
+        normals: Vec::new(),
+        triangles: (0..count).flat_map(|k| [[0, 2 + k, next(k)], [1, next(k), 2 + k]]).collect(),
+    }
+}
+
+#[test]
+fn vertices_with_many_triangles_are_checked_too() {
+    for count in [3, 31, 32, 33, 1000] {
+        let topology = check(&spindle(count)).expect("closed");
+        assert_eq!((topology.euler, topology.components), (2, 1), "{count}");
+        let mut open = spindle(count);
+        open.triangles.pop();
+        assert!(matches!(check(&open), Err(Fault::Open(..))), "{count}");
+        let mut twice = spindle(count);
+        twice.triangles.push(twice.triangles[0]);
+        assert!(matches!(check(&twice), Err(Fault::Repeated(..))), "{count}");
+    }
 }

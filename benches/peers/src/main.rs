@@ -2,6 +2,7 @@
 //! each other. `cargo run --release --manifest-path benches/peers/Cargo.toml [WORK ...]` from the root of the repository. `YONT_ALONE=1` runs
 //! our side alone, for a profile of it.
 
+mod meshes;
 mod ours;
 mod peer;
 mod pictures;
@@ -11,6 +12,12 @@ mod works;
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     rayon::ThreadPoolBuilder::new().num_threads(2).build_global().expect("threads");
+    if let [flag, cells] = &wanted[..]
+        && flag == "--peak"
+    {
+        meshes::print_peak(cells.parse().expect("a number of cells"));
+        return;
+    }
     table::head();
     for (name, work) in works::WORKS {
         if wanted.is_empty() || wanted.iter().any(|w| name.starts_with(w.as_str())) {

@@ -6,19 +6,17 @@ use std::time::Duration;
 
 use fidget::eval::{BulkEvaluator, Function, MathFunction};
 use fidget::jit::JitFunction;
-use fidget::mesh::{Octree, Settings};
 use fidget::raster::pixel;
-use fidget::render::RenderHints;
 use fidget::shape::{BoundShape, EzShape, Shape as Form, ShapeBulkEval};
 use fidget::vm::VmFunction;
 use rayon::prelude::*;
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::picture::plot::{Fill, Window, inside, plot};
-use yont::surface::{Grid, check, extract};
 use yont::vm::block::Scalar;
 use yont::vm::{Demand, Points, Program, Shape};
 
+use crate::meshes::{self, beside_fidget};
 use crate::ours::{GYROID, Object, program, spheres};
 use crate::peer::Expression;
 use crate::pictures;
@@ -36,11 +34,13 @@ pub const WORKS: &[(&str, fn())] = &[
     ("load", pictures::load),
     ("sizes-prospero", pictures::sizes_prospero),
     ("sizes-spheres", pictures::sizes_spheres),
-    ("gyroid-128", || mesh("gyroid ball, mesh 128", &Object::of(GYROID), 1.0, 7)),
-    ("gyroid-256", || mesh("gyroid ball, mesh 256", &Object::of(GYROID), 1.0, 8)),
+    ("gyroid-128", || beside_fidget("gyroid ball, mesh 128", &Object::of(GYROID), 1.0, 7)),
+    ("gyroid-256", || beside_fidget("gyroid ball, mesh 256", &Object::of(GYROID), 1.0, 8)),
     ("bear", || model_mesh("bear", 1.0)),
     ("colonnade", || model_mesh("colonnade", 1.0)),
     ("tanglecube", || model_mesh("tanglecube", 4.5)),
+    ("python-gyroid", || meshes::beside_python(256)),
+    ("sizes-gyroid", meshes::sizes),
     ("dense-gyroid", || dense("gyroid ball, dense 256", &Object::of(GYROID))),
     ("dense-bear", || {
         if let Some(list) = list("bear") {
@@ -49,6 +49,7 @@ pub const WORKS: &[(&str, fn())] = &[
     }),
 ];
 
+/// Time for the runs of each side.
 pub const BUDGET: Duration = Duration::from_secs(3);
 
 /// Uses a result, so that nobody leaves the work out.
@@ -108,39 +109,15 @@ fn picture(name: &str, object: &Object, peer: &Expression, side: usize) {
     );
 }
 
+/// A shape of Fidget without variables.
 pub fn bound<F: MathFunction + Clone>(peer: &Expression) -> BoundShape<'static, F, f32> {
     Form::<F>::new(&peer.context, peer.root).expect("a shape").try_into().ok().expect("no variables")
 }
 
 fn model_mesh(name: &str, half: f64) {
     if let Some(list) = list(name) {
-        mesh(&format!("{name}, mesh 128"), &Object::of(&program(&list)), half, 7);
+        beside_fidget(&format!("{name}, mesh 128"), &Object::of(&program(&list)), half, 7);
     }
-}
-
-fn mesh(name: &str, object: &Object, half: f64, depth: u8) {
-    let peer = Expression::of(object.graph(), object.root);
-    let grid = Grid::new(&[[-half, half]; 3], 1 << depth).expect("a grid");
-    let make = |shape: &Shape| extract(shape, &grid, &Limits::default(), &Interrupt::default()).expect("a mesh").mesh;
-    let settings =
-        || Settings { depth, world_to_model: nalgebra::Matrix4::new_scaling(half as f32), ..Default::default() };
-    let ours = make(&object.shape(3, Demand::Sign));
-    assert!(check(&ours).is_ok(), "the mesh is closed");
-    let theirs = Octree::build(&bound::<VmFunction>(&peer), &settings()).expect("a tree").walk_dual();
-    println!("<!-- {name}: {} and {} triangles -->", ours.triangles.len(), theirs.triangles.len());
-    fn peers<F: MathFunction + RenderHints + Clone>(b: &BoundShape<'static, F, f32>, s: &Settings) {
-        keep(Octree::build(b, s).expect("a tree").walk_dual());
-    }
-    compare(
-        name,
-        &mut [
-            Runner::new("Yont, double", || object.shape(3, Demand::Sign), |s| keep(make(s))),
-            Runner::new("Fidget, VM, single", || bound::<VmFunction>(&peer), |b| peers(b, &settings())),
-            Runner::new("Fidget, JIT, single", || bound::<JitFunction>(&peer), |b| peers(b, &settings())),
-        ],
-        3,
-        BUDGET,
-    );
 }
 
 /// The lattice of a dense evaluation: slab by slab, in pieces of a size that suits the evaluator.

@@ -12,7 +12,7 @@ use crate::picture::palette::Palette;
 use crate::surface::check::{Topology, check};
 use crate::surface::contour::outlines;
 use crate::surface::grid::Grid;
-use crate::surface::marching::{Extraction, Report, SurfaceError};
+use crate::surface::marching::{Extraction, Report, SurfaceError, extract_bare};
 use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
 use crate::surface::sharp::{Plain, Sharpened, extract_as};
@@ -225,8 +225,15 @@ impl<'a> Making<'a> {
             self.say(told::of_report(self.subject, &report));
             return Ok((Some(mesh), line, report));
         }
-        let extraction =
-            extract_as(&shape, grid, self.options.view.sharp, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
+        let (limits, interrupt, sharp) = (self.shop.limits, self.shop.interrupt, self.options.view.sharp);
+        // These formats hold no normals.
+        let is_bare = !sharp && matches!(self.output.format, Format::Stl | Format::ThreeMf);
+        let extraction = if is_bare {
+            extract_bare(&shape, grid, limits, interrupt)
+        } else {
+            extract_as(&shape, grid, sharp, limits, interrupt)
+        };
+        let extraction = extraction.map_err(unmade)?;
         if extraction.mesh.is_empty() {
             return Ok((None, String::new(), extraction.report));
         }
