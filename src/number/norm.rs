@@ -75,7 +75,7 @@ pub(super) fn range(a: Interval, b: Interval, p: Interval) -> Interval {
         range = range.hull(Interval::new(lo, hi));
     }
     if p.lo < 0.0 {
-        let lo = if p.hi >= 0.0 { 0.0 } else { below(a.lo, b.lo, p.hi) };
+        let lo = if (p.hi >= 0.0) | underflows { 0.0 } else { below(a.lo, b.lo, p.hi) };
         let hi = above(a.hi, b.hi, p.lo);
         let hi = if underflows { hi.max(a.hi.min(b.hi).min(tiny)) } else { hi };
         range = range.hull(Interval::new(lo, hi));
