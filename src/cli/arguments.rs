@@ -15,6 +15,7 @@ use super::values::{
     Assignment, Camera, Cutting, Extent, Ground, Section, Size, Slices, angles, assignment, background, camera, cut,
     extent, positive, section, size, slices,
 };
+use super::way::Way;
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -358,6 +359,9 @@ pub struct Making {
     /// How fine
     #[command(flatten)]
     pub fineness: Fineness,
+    /// Which way
+    #[command(flatten)]
+    pub way: Way,
     /// How it looks
     #[command(flatten)]
     pub look: Look,

@@ -4,7 +4,9 @@ use std::io::BufWriter;
 use std::time::Instant;
 
 use crate::field::Coordinate;
-use crate::model::request::{self, Cells, Options, Output, PictureOptions, Sequence, Target, Timing, View, Written};
+use crate::model::request::{
+    self, Cells, Options, Output, PictureOptions, Route, Sequence, Target, Timing, View, Written,
+};
 use crate::model::{Session, settings};
 
 use super::arguments::{Making, Rays, Switch};
@@ -31,6 +33,9 @@ pub fn view(making: &Making, default: &View) -> View {
             .collect(),
         cells,
         precision: making.fineness.precision.into(),
+        route: making.way.route.as_deref().and_then(Route::from_name).unwrap_or(default.route),
+        guide: making.way.guide.clone().unwrap_or_else(|| default.guide.clone()),
+        centre: making.way.center.as_ref().map(|centre| centre.0.clone()),
         sharp: making.fineness.sharp.map_or(default.sharp, Switch::is_on),
     }
 }

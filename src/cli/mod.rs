@@ -15,6 +15,7 @@ pub mod show;
 pub mod status;
 pub mod text;
 pub mod values;
+mod way;
 pub mod words;
 
 use std::ffi::OsString;

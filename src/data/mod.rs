@@ -7,6 +7,7 @@
 pub mod error;
 pub mod interpolate;
 pub mod nrrd;
+pub mod obj;
 pub mod place;
 pub mod polygon;
 pub mod pyramid;

@@ -6,7 +6,7 @@ use crate::diagnostic::{Category, Diagnostic};
 use crate::picture::camera::View;
 use crate::picture::palette::Palette;
 
-use super::request::{Background, Cells, Options};
+use super::request::{Background, Cells, Choice, Options, Route};
 use super::session::Session;
 use super::value::{Scalar, Value};
 
@@ -48,6 +48,18 @@ pub const SETTINGS: &[Setting] = &[
             o.view.cells = Cells::Length(v);
             v > 0.0
         }),
+    },
+    Setting {
+        name: "route",
+        form: "\"star\"",
+        doc: "how a boundary is found: auto, star, cubes",
+        takes: Takes::Text(|v, o| Route::from_name(v).map(|route| o.view.route = route).is_some()),
+    },
+    Setting {
+        name: "guide",
+        form: "\"sphere:5\"",
+        doc: "the guide shape of the star route: following, sphere:5, icosahedron:5, octahedron:5, cube:5, tetrahedron:5, polygon:64, a file.obj",
+        takes: Takes::Text(|v, o| Choice::read(v).map(|guide| o.view.guide = guide).is_ok()),
     },
     Setting {
         name: "sharp",

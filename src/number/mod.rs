@@ -8,6 +8,7 @@ pub mod interval;
 pub mod leaf;
 pub mod norm;
 pub mod op;
+pub mod polynomial;
 pub mod real;
 pub mod rfunction;
 pub mod star;

@@ -4,6 +4,8 @@
 //! The modelling space caps the object: a ray that enters the space inside the object hits the face there. What is thinner than a
 //! sample spacing along a ray is found where the function has a maximum between samples, as at silhouettes.
 
+mod algebraic;
+
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
@@ -13,6 +15,8 @@ use crate::surface::boxes::{Block, Visitor, points, walk_on};
 use crate::surface::memory::Left;
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::{Program, Shape};
+
+pub use algebraic::cast_on;
 
 use super::camera::Camera;
 use super::frustum::{Frustum, Ray};
@@ -133,11 +137,11 @@ pub fn heights(
     Ok((all, counters))
 }
 
-/// Casts the rays that are wanted, as a part of a task whose progress was begun already.
+/// Casts the rays that are wanted by a search, whatever the object is, as a part of a task whose progress was begun already.
 ///
 /// # Errors
 /// [`Cancelled`] soon after the interrupt was set.
-pub fn cast_on<T: Send>(
+pub fn search_on<T: Send>(
     shape: &Shape,
     scene: &Scene,
     aim: Aim<'_>,

@@ -1,6 +1,7 @@
 //! Expressions compiled to flat programs, and what evaluates them: blocks of points, gradients, intervals of boxes. Knows neither
 //! language nor files.
 
+pub mod along;
 pub mod block;
 mod choice;
 pub mod compile;

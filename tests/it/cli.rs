@@ -330,6 +330,9 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("code", &["ball.geo"], &["ball.geo", "-e", "r"]),
     ("define", &["ball.geo", "-o", "-", "--format", "stl"], &["ball.geo", "-o", "-", "--format", "stl", "-D", "r=1"]),
     ("output", &["ball.geo"], &["ball.geo", "-o", "a.stl"]),
+    ("route", STL, &["ball.geo", "-o", "-", "--format", "stl", "--route", "cubes"]),
+    ("guide", STL, &["ball.geo", "-o", "-", "--format", "stl", "--guide", "sphere:2"]),
+    ("center", STL, &["ball.geo", "-o", "-", "--format", "stl", "--center", "0.1,0,0"]),
     ("format", &["ball.geo", "-o", "-", "--format", "stl"], &["ball.geo", "-o", "-", "--format", "obj"]),
     ("interactive", &["ball.geo"], &["ball.geo", "-i"]),
     ("exit_status", &["-e", "0"], &["-e", "0", "--exit-status"]),
@@ -396,6 +399,7 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("strict", &["-e", "r = 1; q = r; r = 2;"], &["-e", "r = 1; q = r; r = 2;", "-W"]),
     ("no_prelude", &["-e", "rel_inside(x1, [1]);"], &["-e", "rel_inside(x1, [1]);", "--no-prelude"]),
 ];
+const STL: &[&str] = &["ball.geo", "-o", "-", "--format", "stl"];
 const PICTURE: &[&str] = &["ball.geo", "-o", "-", "--format", "png"];
 /// A ball with an edge.
 const HALF_BALL: &str = "gob_half = gob_ball & 0.1 - x1 - 0.3*x2;";

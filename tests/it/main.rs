@@ -41,6 +41,7 @@ mod sharp;
 mod slips;
 mod solids;
 mod star;
+mod stars;
 mod stdlib;
 mod tidy;
 mod usage;

@@ -21,8 +21,10 @@ use super::space;
 use super::subject::{Level, Place, Sequence, Subject};
 use super::together::subject;
 use super::told;
+use super::way::{Ready, Route};
 use super::{Options, Timing, View};
 use crate::model::environment::{self, Object, Role};
+use crate::model::route::{Question, star};
 use crate::model::session::Session;
 use crate::vm::Precision;
 
@@ -43,9 +45,38 @@ pub fn write(session: &mut Session, output: &Output, options: &Options, standard
     let subject =
         subject.cut(&options.cuts, &pictures::view(&options.picture).map_err(|d| vec![d])?).map_err(|d| vec![d])?;
     let host = session.host.clone();
-    let shop = Workshop { graph: &session.graph, limits: &session.limits, interrupt: &session.interrupt, host: &*host };
+    let guide = Ready::of(session, &options.view.guide).map_err(|d| vec![d])?;
+    let (graph, limits, interrupt) = (&session.graph, &session.limits, &session.interrupt);
+    let shop = Workshop { graph, limits, interrupt, host: &*host, guide };
     let made = make(&shop, &subject, output, options, standard);
-    made.map_err(|told| subject.notes.iter().cloned().chain([told]).collect())
+    let told = match made {
+        Ok(written) => return Ok(written),
+        Err(told) => broken_star(session, &subject, options, told),
+    };
+    Err(subject.notes.iter().cloned().chain([told]).collect())
+}
+
+/// The message about a route that cannot be taken, with the part that breaks it.
+fn broken_star(session: &mut Session, subject: &Subject, options: &Options, told: Diagnostic) -> Diagnostic {
+    let name = &subject.name;
+    let known = told.code == "no-star" && told.labels.is_empty() && options.view.route == Route::Star;
+    let place = if known { session.breaks(name, subject, options.view.centre.as_deref()) } else { None };
+    match place {
+        Some(span) => told.at(span, "this part"),
+        None => told,
+    }
+}
+
+impl Session {
+    /// Where the part stands that breaks the rays of a subject.
+    fn breaks(&mut self, name: &str, subject: &Subject, centre: Option<&[f64]>) -> Option<crate::source::Span> {
+        let axes: Vec<Coordinate> = subject.axes.iter().map(|axis| axis.coordinate).collect();
+        let centre = centre.or(subject.centre.as_deref());
+        let question = Question { node: subject.node, axes: &axes, fixed: &subject.fixed, centre, hint: None };
+        let found = star(&self.graph, question, &self.limits, &self.interrupt).ok()?;
+        let node = found.err()?.node()?;
+        self.place_of_node(name, subject.node, node)
+    }
 }
 
 /// Measures an object: a solid, a plane figure, or one of a single coordinate.
@@ -187,6 +218,7 @@ pub(super) fn alone(session: &mut Session, view: &View, timing: &Timing) -> Aske
     }
     subject.span = session.place(&object.name);
     subject.colouring = object.colour;
+    subject.centre.clone_from(&object.center);
     subject.precision = view.precision;
     space::settle(session, &mut subject, &object).map_err(|told| vec![told])?;
     Ok(subject)

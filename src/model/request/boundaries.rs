@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use crate::diagnostic::{Category, Diagnostic};
 use crate::export::{self, Part, glb, svg};
+use crate::field::NodeId;
 use crate::picture::legend::Telling;
 use crate::picture::paint::Paint;
 use crate::picture::palette::Palette;
@@ -25,6 +26,7 @@ use super::paint::colours_of;
 use super::pictures::Artist;
 use super::subject::{Member, Place, Subject};
 use super::told::{self, empty};
+use super::way::Route;
 
 /// Pixels along each side of the picture in a 3MF file.
 const THUMBNAIL: usize = 256;
@@ -124,7 +126,7 @@ impl<'a> Making<'a> {
         for one in wanted {
             // What is told meanwhile is told of that object.
             self.subject = one.subject;
-            match self.mesh(&one.shape, grid, moment)? {
+            match self.mesh(one.subject.node, &one.shape, grid, moment)? {
                 (Some(mesh), line, _) => {
                     let colours = one.paint.as_ref().map(|paint| self.colours(paint, &mesh, moment)).transpose()?;
                     bodies.push(Body { name: one.subject.name.to_string(), mesh, colours, tint: [255; 4], line });
@@ -181,7 +183,7 @@ impl<'a> Making<'a> {
             let begun = Instant::now();
             let mut bodies = Vec::new();
             for (member, [r, g, b, _]) in members.iter().zip(&colours) {
-                match self.mesh(&member.shape, grid, moment)? {
+                match self.mesh(member.node, &member.shape, grid, moment)? {
                     (Some(mesh), line, _) => {
                         let (name, tint) = (member.label.clone(), [*r, *g, *b, SHOWS_THROUGH]);
                         bodies.push(Body { name, mesh, colours: None, tint, line });
@@ -209,8 +211,20 @@ impl<'a> Making<'a> {
     }
 
     /// The checked boundary; none if it is empty.
-    fn mesh(&mut self, shape: &Shape, grid: &Grid, moment: f64) -> Result<(Option<Mesh>, String, Report), Diagnostic> {
+    fn mesh(
+        &mut self,
+        node: NodeId,
+        shape: &Shape,
+        grid: &Grid,
+        moment: f64,
+    ) -> Result<(Option<Mesh>, String, Report), Diagnostic> {
         let shape = self.subject.at(shape, moment);
+        // Creases as they are come from the search, which knows where they lie.
+        let searched = self.options.view.sharp && self.options.view.route == Route::Auto;
+        if !searched && let Some((mesh, line, report)) = self.star_mesh(node, &shape, grid)? {
+            self.say(told::of_report(self.subject, &report));
+            return Ok((Some(mesh), line, report));
+        }
         let (limits, interrupt, sharp) = (self.shop.limits, self.shop.interrupt, self.options.view.sharp);
         // These formats hold no normals.
         let is_bare = !sharp && matches!(self.output.format, Format::Stl | Format::ThreeMf);
@@ -266,7 +280,10 @@ impl<'a> Making<'a> {
             let mut slices = Vec::new();
             for (member, [r, g, b, _]) in members.iter().zip(&colours) {
                 let shape = self.subject.at(&member.shape, moment);
-                let found = outlines(&shape, &grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?;
+                let found = match self.star_outline(member.node, &shape, &grid)? {
+                    Some(found) => found,
+                    None => outlines(&shape, &grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?,
+                };
                 if !found.lines.is_empty() {
                     self.say(told::of_report(self.subject, &found.report));
                 }

@@ -44,6 +44,8 @@ pub struct Workshop<'a> {
     pub interrupt: &'a Interrupt,
     /// Where files go.
     pub host: &'a dyn Host,
+    /// The guide shape of the star route.
+    pub guide: super::way::Ready,
 }
 
 impl Workshop<'_> {

@@ -15,9 +15,11 @@ mod pictures;
 mod preview;
 mod solids;
 mod space;
+mod starred;
 pub mod subject;
 mod together;
 mod told;
+pub mod way;
 
 pub use crate::vm::Precision;
 pub use ask::{measure, sample, sampling, write};
@@ -32,6 +34,7 @@ pub use preview::{headline, preview};
 pub(super) use space::Searched;
 pub use subject::{Sequence, Subject};
 pub use together::subject;
+pub use way::{Choice, Route};
 
 pub use crate::field::Coordinate;
 
@@ -59,6 +62,12 @@ pub struct View {
     pub cells: Cells,
     /// The numbers that points are computed with.
     pub precision: Precision,
+    /// How the boundary is found.
+    pub route: Route,
+    /// The guide shape of the star route.
+    pub guide: Choice,
+    /// The centre of the star route, a number for each axis. Wins over the script's.
+    pub centre: Option<Vec<f64>>,
     /// Whether creases and corners are in meshes as they are, not beveled.
     pub sharp: bool,
 }
@@ -72,6 +81,9 @@ impl Default for View {
             bounds: Vec::new(),
             cells: Cells::Along(128),
             precision: Precision::Double,
+            route: Route::Auto,
+            guide: Choice::Following,
+            centre: None,
             sharp: false,
         }
     }

@@ -26,7 +26,8 @@ pub fn preview(session: &mut Session, options: &Options, within: [usize; 2]) -> 
     let seen = view(&options.picture).map_err(|told| vec![told])?;
     let subject = subject.cut(&options.cuts, &seen).map_err(|told| vec![told])?;
     let host = session.host.clone();
-    let shop = Workshop { graph: &session.graph, limits: &session.limits, interrupt: &session.interrupt, host: &*host };
+    let (graph, limits, interrupt) = (&session.graph, &session.limits, &session.interrupt);
+    let shop = Workshop { graph, limits, interrupt, host: &*host, guide: super::way::Ready::Following };
     small(&shop, &subject, options, within).map_err(|told| vec![told])
 }
 

@@ -52,7 +52,9 @@ pub struct Member {
     pub label: String,
     /// The coordinate's value or the level; of several coordinates that of the last.
     pub value: f64,
-    /// The function; members may share its program.
+    /// The function.
+    pub node: NodeId,
+    /// Its program, which members may share.
     pub shape: Shape,
     /// The values of the coordinates that tell sections apart.
     pub place: Place,
@@ -91,6 +93,8 @@ pub struct Subject {
     pub notes: Vec<Diagnostic>,
     /// The colour that the program gives it.
     pub colouring: Option<Colour>,
+    /// The centre that the program gives it.
+    pub centre: Option<Vec<f64>>,
     /// The faces of the space that are cuts: for each axis the lower and the upper one.
     pub cut: [[bool; 2]; 3],
     /// Further objects in the same picture, with the same axes.
@@ -117,6 +121,7 @@ impl Subject {
             precision: Precision::Double,
             notes: Vec::new(),
             colouring: None,
+            centre: None,
             cut: [[false; 2]; 3],
             beside: Vec::new(),
         }
@@ -214,23 +219,25 @@ impl Subject {
         let sections = self.sections();
         let mut levels = Vec::new();
         for level in &self.levels {
-            levels.push((Some(level.value), self.shape_of(level.node, graph, demand, limits)?));
+            let shape = self.shape_of(level.node, graph, demand, limits)?;
+            levels.push((Some((level.value, level.node)), shape));
         }
         if levels.is_empty() {
             levels.push((None, self.shape(graph, demand, limits)?));
         }
-        let member = |place: &Place, level: Option<f64>, shape: &Shape| {
+        let member = |place: &Place, level: Option<(f64, NodeId)>, shape: &Shape| {
             let mut label = each(place);
             let mut marks: Vec<(String, f64)> = place.iter().map(|(c, v)| (c.to_string(), *v)).collect();
-            if let Some(value) = level {
+            if let Some((value, _)) = level {
                 label.push(if place.is_empty() { number(value) } else { format!("level {}", number(value)) });
                 marks.push(("level".into(), value));
             }
             // A section of type C is told by its colour, whatever the level.
-            let told = if self.colour.is_some() { None } else { level };
+            let told = if self.colour.is_some() { None } else { level.map(|level| level.0) };
             Member {
                 label: label.join(", "),
                 value: told.or(place.last().map(|last| last.1)).unwrap_or(0.0),
+                node: level.map_or(self.node, |(_, node)| node),
                 shape: self.placed(shape, place),
                 place: place.clone(),
                 marks,

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use super::Gauge;
 use super::guide::{Guide, Solid};
 use crate::interrupt::{Cancelled, Interrupt};
-use crate::surface::mesh::{Mesh, dot, minus, unit};
+use crate::surface::mesh::{Mesh, dot, minus};
 use crate::vm::Gradients;
 
 /// Directions that are evaluated together.
@@ -359,10 +359,4 @@ pub fn outline_following(
 pub fn circle(corners: usize) -> Vec<[f64; 2]> {
     let turn = |k: usize| 2.0 * std::f64::consts::PI * k as f64 / corners.max(3) as f64;
     (0..corners.max(3)).map(|k| [libm::cos(turn(k)), libm::sin(turn(k))]).collect()
-}
-
-/// The vector at length 1, if it has one.
-#[must_use]
-pub fn direction(v: [f64; 3]) -> Option<[f64; 3]> {
-    unit(v)
 }
