@@ -20,18 +20,18 @@ curves = [1 - r/(0.8 + 0.4*COS(5*phi)), 1 - r/(0.9 + 0.3*SIN(3*phi)), 1 - r/(0.3
           1 - PNORM(x1, x2, 0.6)/1.3];
 
 { The half-planes of a regular polygon with its sides at the distance d from the origin }
-polygon(n, turn, d) = ARRAY(k = 1 TO n, [COS(2*PI*k/n + turn)/d, SIN(2*PI*k/n + turn)/d]);
+sides(n, turn, d) = ARRAY(k = 1 TO n, [COS(2*PI*k/n + turn)/d, SIN(2*PI*k/n + turn)/d]);
 
 { Fig. 2: a triangle and a square }
-gob_tri = STAR([polygon(3, 0.4, 0.6)], INFINITY, INFINITY);
-gob_box = STAR([polygon(4, 0, 0.75)], INFINITY, INFINITY);
+gob_tri = STAR([sides(3, 0.4, 0.6)], INFINITY, INFINITY);
+gob_box = STAR([sides(4, 0, 0.75)], INFINITY, INFINITY);
 unions  = [gob_tri, gob_box, tr_ricci_union(gob_tri, gob_box, INFINITY), tr_ricci_union(gob_tri, gob_box, 8), tr_ricci_union(gob_tri, gob_box, 3)];
 
 { Fig. 3 }
 squares = ARRAY(k = 1 TO 5, 1 - PNORM(x1, x2, p[k])/0.8);
 
 { Fig. 4 and 5: three triangles }
-control = [polygon(3, 0, 0.36), polygon(3, 0.7, 0.42), polygon(3, 1.4, 0.3)];
+control = [sides(3, 0, 0.36), sides(3, 0.7, 0.42), sides(3, 1.4, 0.3)];
 global  = ARRAY(k = 1 TO 5, STAR(control, 12, p[k]));
 local   = ARRAY(k = 1 TO 5, STAR(control, p[k], 12));
 

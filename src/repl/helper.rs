@@ -162,7 +162,8 @@ impl Assistant {
             return (start, Vec::new());
         }
         let mut found = starting(self.names.iter().map(String::as_str), word);
-        let words = RESERVED.into_iter().chain(["PI", "INFINITY"]).chain(builtins::all().flat_map(builtins::Builtin::names));
+        let words =
+            RESERVED.into_iter().chain(["PI", "INFINITY"]).chain(builtins::all().flat_map(builtins::Builtin::names));
         found.extend(starting(words, &word.to_ascii_uppercase()));
         found.dedup();
         (start, found)

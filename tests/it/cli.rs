@@ -359,8 +359,8 @@ const OPTIONS: &[(&str, &[&str], &[&str])] = &[
     ("cell", &["ball.geo", "-o", "-", "--format", "stl"], &["ball.geo", "-o", "-", "--format", "stl", "--cell", "0.7"]),
     (
         "precision",
-        &["ball.geo", "-o", "-", "--format", "stl"],
-        &["ball.geo", "-o", "-", "--format", "stl", "--precision", "single"],
+        &["ball.geo", "-o", "-", "--format", "stl", "--route", "cubes"],
+        &["ball.geo", "-o", "-", "--format", "stl", "--route", "cubes", "--precision", "single"],
     ),
     ("sharp", HALF, &["ball.geo", "-e", HALF_BALL, "-o", "-", "--format", "stl", "--sharp"]),
     ("size", PICTURE, &["ball.geo", "-o", "-", "--format", "png", "--size", "20x30"]),

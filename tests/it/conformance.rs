@@ -107,8 +107,14 @@ const BINARY: &[Binary] = &[
     Binary::And,
     Binary::Or,
 ];
-const TERNARY: &[Ternary] =
-    &[Ternary::Select, Ternary::Union, Ternary::Intersection, Ternary::UnionSmooth, Ternary::IntersectionSmooth, Ternary::Norm];
+const TERNARY: &[Ternary] = &[
+    Ternary::Select,
+    Ternary::Union,
+    Ternary::Intersection,
+    Ternary::UnionSmooth,
+    Ternary::IntersectionSmooth,
+    Ternary::Norm,
+];
 const NUMBERS: &[f64] = &[0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 3.0, -0.25, 1e-9, 7.5, f64::NAN, f64::INFINITY];
 const INPUTS: [Coordinate; 3] = [Coordinate(1), Coordinate(2), Coordinate(3)];
 

@@ -64,8 +64,14 @@ const BINARY: &[Binary] = &[
 ];
 
 /// Every primitive of three operands.
-const TERNARY: &[Ternary] =
-    &[Ternary::Select, Ternary::Union, Ternary::Intersection, Ternary::UnionSmooth, Ternary::IntersectionSmooth, Ternary::Norm];
+const TERNARY: &[Ternary] = &[
+    Ternary::Select,
+    Ternary::Union,
+    Ternary::Intersection,
+    Ternary::UnionSmooth,
+    Ternary::IntersectionSmooth,
+    Ternary::Norm,
+];
 
 /// A small random sequence (splitmix64), the same every time.
 struct Random(u64);

@@ -73,7 +73,7 @@ fn outline(random: &mut Random, kind: usize) -> Vec<[f64; 2]> {
             })
             .collect(),
         1 => {
-            let half = n / 2 + 3;
+            let half = n / 2 + 120;
             let arm = |i: usize, wide: f64| {
                 let t = i as f64 / half as f64;
                 let (a, r) = (5.0 * TAU * t, 0.1 + 0.8 * t + wide);

@@ -10,7 +10,7 @@ use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::model::Session;
 use yont::model::request::measured::Dimension;
-use yont::model::request::{self, Cells, Measured, Options, Output, Precision, Timing, View};
+use yont::model::request::{self, Cells, Measured, Options, Output, Precision, Route, Timing, View};
 use yont::surface::estimate::Estimate;
 use yont::syntax::Mode;
 
@@ -272,6 +272,7 @@ fn each_kind_of_message_about_geometry() {
         assert!(session.input(&path, &text, Mode::Script).accepted, "{name}");
         let mut options = Options::default();
         options.view.cells = Cells::Along(32);
+        options.view.route = Route::Cubes;
         let format = if text.contains("x3") { "stl" } else { "svg" };
         let output = Output::parse("-", yont::model::request::Format::by_extension(format)).unwrap();
         let told = match request::write(&mut session, &output, &options, &mut Vec::new()) {
@@ -334,7 +335,7 @@ fn info_tells_ranges_found_and_given_and_what_products_share() {
     let bar = all[0].json();
     assert_eq!(bar["name"], "gob_bar");
     assert_eq!(bar["doc"], "A bar");
-    assert_eq!(bar["route"], "cubes");
+    assert_eq!(bar["route"], "star");
     assert_eq!(bar["bounds"]["x1"], serde_json::json!([-3.0, 3.0]), "given");
     assert_eq!(bar["bounds"]["x3"], serde_json::json!([-0.05, 2.05]), "found");
     assert_eq!(bar["found"], serde_json::json!(["x2", "x3"]));

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::model::Session;
-use yont::model::request::{self, Cells, FORMATS, Format, Kind, Options, Output, Sequence, Subject};
+use yont::model::request::{self, Cells, FORMATS, Format, Kind, Options, Output, Route, Sequence, Subject};
 use yont::surface::contour::outlines;
 use yont::surface::{Mesh, extract};
 use yont::syntax::Mode;
@@ -28,6 +28,7 @@ const SINGLE: f64 = 1e-5;
 fn options() -> Options {
     let mut options = Options::default();
     options.view.cells = Cells::Along(CELLS);
+    options.view.route = Route::Cubes;
     options.picture.size = Some(SIZE);
     options.picture.supersample = 1;
     options
@@ -196,6 +197,8 @@ fn may_refuse(format: Format, code: &str, subject: &Subject) -> bool {
     match (format.kind(), code) {
         (Kind::Mesh, "dimension") => axes != 3,
         (Kind::Outlines, "dimension") => axes < 2,
+        // A plate thinner than these cells.
+        (Kind::Mesh, "empty-object") => &*subject.name == "gob_shadow",
         (_, "type-not-shown") => !subject.is_single() || subject.columns.is_some() || subject.rows.is_some(),
         _ => false,
     }

@@ -320,5 +320,7 @@ pub(super) fn number(value: f64) -> String {
         "(IF 0 THEN 0)".into()
     } else if value.is_infinite() {
         if value > 0.0 { "INFINITY" } else { "-INFINITY" }.into()
-    } else { format!("{value:?}").trim_end_matches(".0").to_owned() }
+    } else {
+        format!("{value:?}").trim_end_matches(".0").to_owned()
+    }
 }

@@ -1,0 +1,2 @@
+{ A radius is never negative. }
+gob_bone = MEDIAL([[0, 0, 0], [4, 0, 0]], [1, -0.5], [[1, 2]]);
