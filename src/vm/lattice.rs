@@ -215,7 +215,7 @@ mod tests {
     fn lanes_are_filled_with_whole_axes_and_pieces_of_one() {
         for (axes, lanes, inner, piece) in [
             (&[9, 9, 9][..], 128, 2, 9),
-            (&[8, 8, 8], 128, 2, 8),
+            (&[8, 8, 8], 128, 3, 2),
             (&[4, 4, 4], 128, 3, 4),
             (&[256, 256, 256], 256, 1, 256),
             (&[257, 9, 9], 128, 1, 86),
