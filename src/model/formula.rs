@@ -137,11 +137,14 @@ fn main_system(graph: &Graph, nodes: &[NodeId]) -> Option<InForce> {
     counts.into_iter().max_by_key(|&(system, count)| (count, std::cmp::Reverse(system))).map(|(system, _)| system)
 }
 
+/// A name and the expression that it stands for.
+pub(super) type Named = (String, String);
+
 /// Expressions of a graph in the words of the language, and the names of the longer parts that they share.
 ///
 /// # Errors
 /// Words that say what the language has no expression for.
-pub(super) fn expressions(graph: &Graph, roots: &[NodeId]) -> Result<(Vec<String>, Vec<(String, String)>), String> {
+pub(super) fn expressions(graph: &Graph, roots: &[NodeId]) -> Result<(Vec<String>, Vec<Named>), String> {
     let (nodes, uses) = counted(graph, roots);
     let main = main_system(graph, &nodes);
     let mut writer = Writer::new(graph, uses, main, |leaf| Some(format!("\"{}\"", leaf.0.name())));

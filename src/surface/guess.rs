@@ -85,7 +85,7 @@ pub fn first(values: &[Vec<f64>; 4], out: &mut [f64]) {
         for _ in 0..2 {
             let (value, slope) = curve.at(t);
             let next = t - value / slope;
-            t = if next >= EDGE && next <= 1.0 - EDGE { next } else { t };
+            t = if (EDGE..=1.0 - EDGE).contains(&next) { next } else { t };
         }
         out[i] = t;
     }

@@ -299,11 +299,9 @@ impl<'a> Neighbourhood<'a> {
                 for z in 0..[LEAF, 1][far[2]] {
                     let plane = axis * POINTS + corner + z * STRIDE[2];
                     let word = brick.crossed[axis][z];
-                    let mut next = brick.first_vertex(axis, z);
-                    for bit in bits(word & mask) {
+                    for (next, bit) in (brick.first_vertex(axis, z)..).zip(bits(word & mask)) {
                         let number = if n == 0 { next } else { brick.vertex([bit % LEAF, bit / LEAF, z], axis) };
                         numbers.0[plane + bit % LEAF + bit / LEAF * STRIDE[1]] = number;
-                        next += 1;
                     }
                 }
             }

@@ -197,8 +197,8 @@ fn may_refuse(format: Format, code: &str, subject: &Subject) -> bool {
     match (format.kind(), code) {
         (Kind::Mesh, "dimension") => axes != 3,
         (Kind::Outlines, "dimension") => axes < 2,
-        // A plate thinner than these cells.
-        (Kind::Mesh, "empty-object") => &*subject.name == "gob_shadow",
+        // A plate thinner than these cells, and below the sections.
+        (_, "empty-object") => &*subject.name == "gob_shadow",
         (_, "type-not-shown") => !subject.is_single() || subject.columns.is_some() || subject.rows.is_some(),
         _ => false,
     }

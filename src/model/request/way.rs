@@ -173,7 +173,7 @@ fn named(session: &Session, name: &str, steps: usize) -> Result<Guide, Diagnosti
     }
     let point = |k: usize, i: usize| [0, 1, 2].map(|d| values[d][k * (around + 1) + i]);
     let size = values.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let apart = |a: [f64; 3], b: [f64; 3]| (0..3).any(|d| !((a[d] - b[d]).abs() <= 1e-9 * size));
+    let apart = |a: [f64; 3], b: [f64; 3]| !(0..3).all(|d| (a[d] - b[d]).abs() <= 1e-9 * size);
     let is_open = (0..=along).any(|k| apart(point(k, 0), point(k, around)));
     let has_poles = (0..=around).all(|i| !apart(point(0, i), point(0, 0)) && !apart(point(along, i), point(along, 0)));
     if is_open || !has_poles {

@@ -59,7 +59,7 @@ pub fn tan(angle: f32) -> f32 {
 const WHOLE: f32 = 12_582_912.0;
 
 /// ln 2 in two parts, the first of 10 bits, so that its multiples by exponents are exact.
-const LN2: (f32, f32) = (0.693_359_375, -2.121_944_4e-4);
+const LN2: (f32, f32) = (0.693_359_4, -2.121_944_4e-4);
 
 /// `2^k` for |k| <= 126.
 #[inline(always)]
@@ -99,7 +99,7 @@ pub fn log(x: f32) -> f32 {
     let w = z * z;
     let rest = z * (0.666_666_6 + w * 0.284_987_87) + w * (0.400_009_72 + w * 0.242_790_79);
     let half = 0.5 * f * f;
-    let value = s * (half + rest) + k * 9.058_000_6e-6 - half + f + k * 0.693_138_1;
+    let value = s * (half + rest) + k * 9.058_001e-6 - half + f + k * 0.693_138_1;
     let value = if x > 0.0 { value } else { f32::NAN };
     let value = if x == 0.0 { f32::NEG_INFINITY } else { value };
     if x == f32::INFINITY { x } else { value }
