@@ -1,6 +1,8 @@
 //! What an edit of a star solid costs against evaluating it anew, for ten to a hundred thousand half-spaces, and how far ten thousand
 //! random edits drift. Times are of one thread's processor.
 
+#![allow(clippy::print_stdout)]
+
 use std::time::{Duration, Instant};
 
 use yont::interrupt::Interrupt;
