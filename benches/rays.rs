@@ -1,6 +1,8 @@
 //! Star route against cubes for as many vertices, and pictures by roots against the search, each pair alternating in one run. Prints medians
 //! and their ratios.
 
+#![allow(clippy::print_stdout)]
+
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
