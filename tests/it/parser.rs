@@ -409,7 +409,7 @@ fn a_long_text_is_read_as_its_statements_are() {
         let alone = parsed(line, Mode::Script);
         assert_eq!(alone.statements.len(), 1);
         assert_eq!(statement.span.start, start + alone.statements[0].span.start);
-        assert_eq!(undocumented(&[statement.clone()]), undocumented(&alone.statements), "{line}");
+        assert_eq!(undocumented(std::slice::from_ref(statement)), undocumented(&alone.statements), "{line}");
         assert_eq!(statement.doc, alone.statements[0].doc);
         for diagnostic in &alone.diagnostics {
             let same = told.next().expect("as many messages");

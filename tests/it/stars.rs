@@ -68,6 +68,9 @@ fn volume(mesh: &Mesh) -> f64 {
     mesh.triangles.iter().map(six).sum::<f64>() / 6.0
 }
 
+/// The first pixel and the size of a tile, and what its rays meet: the distance, and whether from outside.
+type Tile = ([usize; 2], [usize; 2], Vec<Option<(f64, bool)>>);
+
 /// Stars with their centres.
 const STARS: &[(&str, [f64; 3])] = &[
     ("1 - x1**2 - x2**2 - x3**2", [0.0; 3]),
@@ -285,7 +288,7 @@ fn roots_show_what_the_search_shows() {
         let scene = Scene { camera, space, rays: [96, 96], tile: 8 };
         let aim = Aim { pattern: Pattern::Middles, tolerance: 1e-9, normals: true };
         let interrupt = Interrupt::default();
-        let collect = |tiles: Vec<([usize; 2], [usize; 2], Vec<Option<(f64, bool)>>)>| {
+        let collect = |tiles: Vec<Tile>| {
             let mut all = vec![None; 96 * 96];
             for (from, size, hits) in tiles {
                 for (k, hit) in hits.into_iter().enumerate() {
