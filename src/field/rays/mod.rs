@@ -1,4 +1,4 @@
-//! What a function looks like along rays from a centre: its ray form, worked out from the expression itself [A92]. Maps are seen through,
+//! What a function looks like along rays from a centre: its ray form, worked out from the expression itself \[A92\]. Maps are seen through,
 //! not expanded. Symbolic alone: whether a coefficient is positive in every direction is for others to prove.
 
 mod centre;

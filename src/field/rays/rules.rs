@@ -85,7 +85,7 @@ impl Rules<'_> {
         }
     }
 
-    /// A function of what is the same all along a ray is so too: [A92] theorem 2.
+    /// A function of what is the same all along a ray is so too: \[A92\] theorem 2.
     fn constant(&mut self, node: &Node, operands: &[Option<NodeId>]) -> RayForm {
         let mut numbers = Vec::with_capacity(operands.len());
         node.for_each_operand(|e| numbers.push(e));
@@ -252,7 +252,7 @@ impl Rules<'_> {
     }
 
     /// The degree times an exponent. One that varies with the direction is kept as a factor, and leaves again by its inverse:
-    /// [A92] theorem 1 (6).
+    /// \[A92\] theorem 1 (6).
     fn raised(&self, degree: Degree, exponent: NodeId) -> Option<Degree> {
         if degree.is_zero() {
             return Some(Degree::ZERO);

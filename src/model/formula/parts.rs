@@ -282,7 +282,7 @@ impl<'a> Writer<'a> {
         Part::new(Level::If, if undefined { text } else { format!("{text} ELSE {}", b.text) }, depth + 1)
     }
 
-    /// A set operation of another system than the one that the definition sets, by [P95] equations (2) and (5).
+    /// A set operation of another system than the one that the definition sets, by \[P95\] equations (2) and (5).
     fn written_out(&mut self, op: Ternary, union: bool, (a, b): (NodeId, NodeId), c: NodeId) -> Part {
         self.rewritten = true;
         let (f, g, p) = (self.short(a), self.short(b), self.short(c));

@@ -165,7 +165,7 @@ impl Lower<'_> {
         Ok(Value::Scalar(all.unwrap_or(Scalar::Number(f64::NAN))))
     }
 
-    /// `R(t)^2 - |X - X0(t)|^2` at its highest along a segment, t from 0 to 1. [P98] 2.3, with the highest place mended.
+    /// `R(t)^2 - |X - X0(t)|^2` at its highest along a segment, t from 0 to 1. \[P98\] 2.3, with the highest place mended.
     fn rounded_cone(&mut self, [p, q]: [&[f64]; 2], [r, s]: [f64; 2]) -> Scalar {
         let away: Vec<Scalar> = p.iter().enumerate().map(|(i, &c)| self.from(i, c)).collect();
         let length: Vec<f64> = p.iter().zip(q).map(|(p, q)| q - p).collect();

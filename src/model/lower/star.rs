@@ -113,7 +113,7 @@ impl Lower<'_> {
         Ok(all.unwrap_or(Scalar::Number(0.0)))
     }
 
-    /// `H(L) = (L + |L|)/2`: [A96] eq. (2).
+    /// `H(L) = (L + |L|)/2`: \[A96\] eq. (2).
     fn half_space(&mut self, row: &[Scalar]) -> Scalar {
         let mut sum = Scalar::Number(0.0);
         for (c, a) in (1..).zip(row) {
