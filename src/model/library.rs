@@ -51,7 +51,7 @@ pub struct Entry {
     pub text: String,
     /// An expression that uses it, and its value as the prompt shows it.
     pub example: (String, String),
-    /// Where it comes from: `\[P95\] (11)`; empty where it comes from nowhere.
+    /// Where it comes from: `[P95] (11)`; empty where it comes from nowhere.
     pub source: String,
     /// The file that it stands in, as `stdlib/shapes/solids.geo`.
     pub file: String,
