@@ -89,7 +89,8 @@ const UNARY: &[Unary] = &[
     Unary::Powi(7),
     Unary::Powi(0),
 ];
-const BINARY: &[Binary] = &[
+/// Every primitive of two operands.
+pub(crate) const BINARY: &[Binary] = &[
     Binary::Add,
     Binary::Sub,
     Binary::Mul,
@@ -107,7 +108,8 @@ const BINARY: &[Binary] = &[
     Binary::And,
     Binary::Or,
 ];
-const TERNARY: &[Ternary] = &[
+/// Every primitive of three operands.
+pub(crate) const TERNARY: &[Ternary] = &[
     Ternary::Select,
     Ternary::Union,
     Ternary::Intersection,

@@ -5,7 +5,9 @@ mod functions;
 mod intervals;
 mod rfunctions;
 
-use yont::number::{Binary, Ternary, Unary};
+use yont::number::Unary;
+
+use crate::conformance::{BINARY, TERNARY};
 
 /// Every primitive of one operand.
 const UNARY: &[Unary] = &[
@@ -41,36 +43,6 @@ const UNARY: &[Unary] = &[
     Unary::Powi(2),
     Unary::Powi(3),
     Unary::Powi(10),
-];
-
-/// Every primitive of two operands.
-const BINARY: &[Binary] = &[
-    Binary::Add,
-    Binary::Sub,
-    Binary::Mul,
-    Binary::Div,
-    Binary::Min,
-    Binary::Max,
-    Binary::Pow,
-    Binary::Atan2,
-    Binary::Hypot,
-    Binary::Mod,
-    Binary::Less,
-    Binary::LessEqual,
-    Binary::Equal,
-    Binary::NotEqual,
-    Binary::And,
-    Binary::Or,
-];
-
-/// Every primitive of three operands.
-const TERNARY: &[Ternary] = &[
-    Ternary::Select,
-    Ternary::Union,
-    Ternary::Intersection,
-    Ternary::UnionSmooth,
-    Ternary::IntersectionSmooth,
-    Ternary::Norm,
 ];
 
 /// A small random sequence (splitmix64), the same every time.

@@ -55,7 +55,7 @@ const PIPED: &[(&str, &str, Words, Words, i32)] = &[
     (
         "an object shows itself",
         "gob_b = x1*x2; x1min = 0; x1max = 2;\ngob_b\n",
-        &["gob_b: 2-D object of x1, x2; x1 from 0 to 2; route cubes"],
+        &["gob_b: 2-D object of x1, x2; x1 from 0 to 2\n"],
         &[],
         0,
     ),
@@ -108,7 +108,7 @@ const PIPED: &[(&str, &str, Words, Words, i32)] = &[
     (
         "a space that was found",
         "gob_a = 1 - x1**2 - x2**2;\ngob_a\n",
-        &["x1, x2 from -1.05 to 1.05; route cubes"],
+        &["x1, x2 from -1.05 to 1.05; route star"],
         &[],
         0,
     ),

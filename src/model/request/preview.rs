@@ -96,12 +96,16 @@ fn shrunk(image: Image, within: [usize; 2]) -> Image {
 pub fn headline(session: &mut Session, view: &View) -> Result<String, Vec<Diagnostic>> {
     let object = session.object_given(view.object.as_deref(), &|c| view.at.iter().any(|at| at.0 == c))?;
     Ok(match together::subject(session, view, &Timing::default()) {
-        Ok(subject) => line(&object, &subject.axes, ""),
+        Ok(subject) => {
+            let has_boundary = matches!(object.space().len(), 2 | 3);
+            let route = if has_boundary { session.route_of(&object).ok() } else { None };
+            line(&object, &subject.axes, "") + &route.map_or(String::new(), |route| format!("; route {}", route.name()))
+        }
         Err(told) => line(&object, &[], told.first().map_or("", |told| told.code)),
     })
 }
 
-/// The line; `space` is the modelling space where it is known, given or found, `trouble` the code of what is in the way.
+/// The line without the route; `space` is the modelling space where it is known, given or found, `trouble` the code of what is in the way.
 fn line(object: &Object, space: &[Axis], trouble: &str) -> String {
     let names: Vec<String> = object.uses.iter().map(|c| c.to_string()).collect();
     let mut bounds: Vec<(String, (f64, f64))> = Vec::new();
@@ -121,6 +125,5 @@ fn line(object: &Object, space: &[Axis], trouble: &str) -> String {
         "endless-object" => "without end".into(),
         _ => "no bounds yet".into(),
     };
-    let route = if matches!(object.space().len(), 2 | 3) { "; route cubes" } else { "" };
-    format!("{}: {}-D object of {}; {bounds}{route}", object.name, names.len(), names.join(", "))
+    format!("{}: {}-D object of {}; {bounds}", object.name, names.len(), names.join(", "))
 }
