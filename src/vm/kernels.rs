@@ -361,6 +361,8 @@ fn join<K: Kind>(op: Ternary, a: &K::Block, b: &K::Block, number: f64, out: &mut
 }
 
 #[cfg(test)]
+mod sets;
+#[cfg(test)]
 mod tests {
     use super::super::block::{Doubles, Points};
     use super::{Kind, Store};
