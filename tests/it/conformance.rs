@@ -9,6 +9,8 @@ use yont::limits::Limits;
 use yont::number::{Algebra, Binary, Dual, Duals, Interval, Intervals, Leaf, Reals, Ternary, Unary};
 use yont::vm::{Boxes, Demand, Gradients, Points, Program, reference};
 
+use crate::number::UNARY;
+
 /// A small generator of random numbers (splitmix64).
 pub struct Random(pub u64);
 
