@@ -122,6 +122,12 @@ pub enum Special {
     Medial,
     /// `MESH(file)`, `MESH(file, e1, e2, e3)`
     Mesh,
+    /// `SCATTER(points, values, smoothness, nx, ny, e1, e2)`
+    Scatter,
+    /// `HEIGHT(file, e1, e2)`
+    Height,
+    /// `FIT(residual, start, points)`
+    Fit,
 }
 
 /// A formula over the primitives; `Argument(0)` is the first argument.
@@ -245,6 +251,8 @@ impl Builtin {
                 S::Project => Arity::Exactly(4),
                 S::Interpolate => Arity::Between(3, 5),
                 S::Mesh => Arity::Between(1, 4),
+                S::Scatter => Arity::Exactly(7),
+                S::Height | S::Fit => Arity::Exactly(3),
             },
         }
     }
