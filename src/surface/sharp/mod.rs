@@ -11,6 +11,7 @@
 
 mod atlas;
 mod caps;
+mod corners;
 mod fill;
 mod net;
 mod patches;
@@ -30,7 +31,8 @@ use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::vm::{Pieces, Precision, Program, Shape};
 use atlas::Atlas;
-use patches::{Patch, patches};
+pub use corners::outlines_as;
+use patches::patches;
 use sew::Sewing;
 use solve::Scale;
 use study::{Facet, Student, Study};
@@ -79,9 +81,19 @@ pub struct Sharpened {
     pub plain: [usize; Plain::ALL.len()],
     /// New vertices.
     pub vertices: usize,
+    /// Parts that sampling tore off a tip, and that are gone since the tip is whole again.
+    pub torn: usize,
 }
 
 impl Sharpened {
+    /// Adds what became of others.
+    pub fn add(&mut self, other: &Self) {
+        self.cells += other.cells;
+        self.vertices += other.vertices;
+        self.torn += other.torn;
+        self.plain.iter_mut().zip(other.plain).for_each(|(own, other)| *own += other);
+    }
+
     /// Cells that stay plain.
     #[must_use]
     pub fn left(&self) -> usize {
@@ -132,8 +144,17 @@ pub fn sharpen(
     let mut patches = patches(&extraction.mesh, extraction.own, grid);
     // By leaves; those of a leaf keep their order.
     patches.sort_by_key(|patch| patch.leaf(grid));
-    let (works, counters) = survey(&patches, shape, grid, interrupt)?;
+    let mut ranges = vec![0..0; grid.leaves().iter().product()];
+    let mut start = 0;
+    for same in patches.chunk_by(|a, b| a.leaf(grid) == b.leaf(grid)) {
+        ranges[same[0].leaf(grid)] = start..start + same.len();
+        start += same.len();
+    }
+    let wanted: Vec<bool> = ranges.iter().map(|range| !range.is_empty()).collect();
+    let (found, counters) = survey(&wanted, shape, grid, interrupt)?;
     extraction.report.counters.add(counters);
+    let works: Vec<Work> =
+        found.into_iter().map(|(leaf, program)| Work { patches: ranges[leaf].clone(), program }).collect();
     let scale = Scale::of(grid);
     let mesh = &extraction.mesh;
     let sampler = || Sampler::new(shape).heeding(interrupt);
@@ -161,29 +182,30 @@ pub fn sharpen(
     Ok(sharpened)
 }
 
-/// Finds the leaves in which pieces of the function are live and the mesh has triangles.
+/// Finds the leaves among those that are wanted in which pieces of the function are live, each with the program that is right in it.
 fn survey(
-    patches: &[Patch],
+    wanted: &[bool],
     shape: &Shape,
     grid: &Grid,
     interrupt: &Interrupt,
-) -> Result<(Vec<Work>, Counters), SurfaceError> {
-    let mut ranges = vec![0..0; grid.leaves().iter().product()];
-    let mut start = 0;
-    for same in patches.chunk_by(|a, b| a.leaf(grid) == b.leaf(grid)) {
-        ranges[same[0].leaf(grid)] = start..start + same.len();
-        start += same.len();
-    }
-    let collect = |_: &Block| Collecting { ranges: &ranges, leaves: grid.leaves(), works: Vec::new() };
+) -> Result<(Vec<(usize, Program)>, Counters), SurfaceError> {
+    let collect = |_: &Block| Collecting { wanted, leaves: grid.leaves(), found: Vec::new() };
     let Walk { visitors, counters } = walk(grid, shape, collect, interrupt)?;
-    Ok((visitors.into_iter().flat_map(|visitor| visitor.works).collect(), counters))
+    Ok((visitors.into_iter().flat_map(|visitor| visitor.found).collect(), counters))
 }
 
-/// Keeps the programs of leaves with triangles.
+/// The number of the leaf that owns a cell.
+fn leaf_of(grid: &Grid, cell: [usize; 3]) -> usize {
+    let [x, y, _] = grid.leaves();
+    let at = cell.map(|i| i / LEAF);
+    at[0] + x * (at[1] + y * at[2])
+}
+
+/// Keeps the programs of leaves that are wanted.
 struct Collecting<'a> {
-    ranges: &'a [Range<usize>],
+    wanted: &'a [bool],
     leaves: [usize; 3],
-    works: Vec<Work>,
+    found: Vec<(usize, Program)>,
 }
 
 impl Visitor for Collecting<'_> {
@@ -192,7 +214,7 @@ impl Visitor for Collecting<'_> {
         (from[2]..to[2]).any(|z| {
             (from[1]..to[1]).any(|y| {
                 let row = self.leaves[0] * (y + self.leaves[1] * z);
-                self.ranges[row + from[0]..row + to[0]].iter().any(|range| !range.is_empty())
+                self.wanted[row + from[0]..row + to[0]].contains(&true)
             })
         })
     }
@@ -201,9 +223,9 @@ impl Visitor for Collecting<'_> {
 
     fn leaf(&mut self, block: &Block, program: &Program, _sampler: &mut Sampler) {
         let at = block.from.map(|i| i / LEAF);
-        let patches = self.ranges[at[0] + self.leaves[0] * (at[1] + self.leaves[1] * at[2])].clone();
-        if !patches.is_empty() && Pieces::has_branches(program) {
-            self.works.push(Work { patches, program: program.clone() });
+        let leaf = at[0] + self.leaves[0] * (at[1] + self.leaves[1] * at[2]);
+        if self.wanted[leaf] && Pieces::has_branches(program) {
+            self.found.push((leaf, program.clone()));
         }
     }
 }

@@ -189,7 +189,7 @@ impl Student<'_> {
         vertices.dedup();
         let places: Vec<[f64; 3]> = vertices.iter().map(|&v| self.mesh.positions[v as usize]).collect();
         let mut pieces = Vec::new();
-        let which = self.trace(&work.program, &places, &mut pieces);
+        let which = trace(&mut self.tracer, self.shape, &work.program, &places, &mut pieces);
         if pieces.len() < 2 {
             return None;
         }
@@ -231,17 +231,6 @@ impl Student<'_> {
         }
         study.facets.retain(|facet| facet.failed.is_some() || !facet.parts.is_empty());
         Some(study)
-    }
-
-    /// The piece of the program at each place.
-    fn trace(&mut self, program: &Program, places: &[[f64; 3]], pieces: &mut Vec<Program>) -> Vec<usize> {
-        let mut columns: Vec<Vec<f64>> =
-            (0..self.shape.dimension).map(|d| places.iter().map(|p| p[d]).collect()).collect();
-        columns.extend(self.shape.fixed.iter().map(|&value| vec![value; places.len()]));
-        let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let mut which = vec![0; places.len()];
-        self.tracer.at(program, &slices, pieces, &mut which);
-        which
     }
 
     /// The polygons with what is known of their corners.
@@ -496,7 +485,7 @@ impl Student<'_> {
                 } else if value.is_nan() || open.unseen == UNSEEN || !Pieces::has_branches(program) {
                     fail(open, study, Plain::Hidden);
                 } else {
-                    let unseen = self.trace(program, &[candidate.at], &mut study.pieces)[0];
+                    let unseen = trace(&mut self.tracer, shape, program, &[candidate.at], &mut study.pieces)[0];
                     let mut pieces = candidate.pieces;
                     if pieces.contains(&unseen) {
                         fail(open, study, Plain::Hidden);
@@ -560,6 +549,22 @@ impl Student<'_> {
         let rest = open.corners[j..].iter().chain(&open.corners[..=i]).cloned().collect();
         Some([part(open.corners[i..=j].to_vec()), part(rest)])
     }
+}
+
+/// The piece of a program at each place.
+pub(super) fn trace(
+    tracer: &mut Pieces,
+    shape: &Shape,
+    program: &Program,
+    places: &[[f64; 3]],
+    pieces: &mut Vec<Program>,
+) -> Vec<usize> {
+    let mut columns: Vec<Vec<f64>> = (0..shape.dimension).map(|d| places.iter().map(|p| p[d]).collect()).collect();
+    columns.extend(shape.fixed.iter().map(|&value| vec![value; places.len()]));
+    let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let mut which = vec![0; places.len()];
+    tracer.at(program, &slices, pieces, &mut which);
+    which
 }
 
 fn fail(open: &mut Open, study: &mut Study, reason: Plain) {
