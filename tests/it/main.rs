@@ -40,6 +40,7 @@ mod scenes;
 mod session;
 mod sharp;
 mod slips;
+mod solid_meshes;
 mod solids;
 mod star;
 mod stars;
