@@ -9,7 +9,7 @@ mod powers;
 mod table;
 mod waves;
 
-pub use forms::RAMP;
+pub use forms::FILES;
 pub use table::{Arity, Builtin, Special, Subject, Term};
 pub use table::{Meaning, WrongCount};
 

@@ -120,6 +120,8 @@ pub enum Special {
     Contours,
     /// `MEDIAL(P, R, edges)`
     Medial,
+    /// `MESH(file)`, `MESH(file, e1, e2, e3)`
+    Mesh,
 }
 
 /// A formula over the primitives; `Argument(0)` is the first argument.
@@ -242,6 +244,7 @@ impl Builtin {
                 S::Star | S::Medial => Arity::Exactly(3),
                 S::Project => Arity::Exactly(4),
                 S::Interpolate => Arity::Between(3, 5),
+                S::Mesh => Arity::Between(1, 4),
             },
         }
     }

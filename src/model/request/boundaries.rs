@@ -42,16 +42,18 @@ struct Wanted<'a> {
 }
 
 /// A boundary as a file holds it.
-struct Body {
-    name: String,
-    mesh: Mesh,
+pub(super) struct Body {
+    pub(super) name: String,
+    pub(super) mesh: Mesh,
     colours: Option<Vec<[u8; 3]>>,
     tint: [u8; 4],
     line: String,
+    /// Which of several objects it is.
+    pub(super) place: usize,
 }
 
 impl Body {
-    fn part(&self) -> Part<'_> {
+    pub(super) fn part(&self) -> Part<'_> {
         Part { colours: self.colours.as_deref(), tint: self.tint, ..Part::of(&self.name, &self.mesh) }
     }
 
@@ -85,6 +87,11 @@ impl<'a> Making<'a> {
             let bodies = self.bodies(&wanted, &grid, moment)?;
             let lines: Vec<&str> = bodies.iter().map(|body| body.line.as_str()).collect();
             self.line(n, &lines.join("; "), begun);
+            if self.output.format == Format::Pov {
+                let scene = self.scene(&bodies, moment)?;
+                self.put(n, &mut |out| export::pov::write(&scene, &mut { out }))?;
+                continue;
+            }
             let thumbnail = self.thumbnail(moment)?;
             let (format, name) = (self.output.format, self.subject.name.clone());
             let parts: Vec<Part> = bodies.iter().map(Body::part).collect();
@@ -97,7 +104,7 @@ impl<'a> Making<'a> {
     fn several(&self) -> Result<(), Diagnostic> {
         if let Format::Stl | Format::Ply = self.output.format {
             let what = format!("an .{}", self.output.format.extension()).replace("an .p", "a .p");
-            let keep = "an .obj, .glb or .3mf keeps them apart under their names";
+            let keep = "an .obj, .glb, .3mf or .pov keeps them apart under their names";
             self.subject.is_alone(&what).map_err(|told| told.help(keep))?;
         }
         if self.subject.beside.is_empty() {
@@ -122,13 +129,14 @@ impl<'a> Making<'a> {
     fn bodies(&mut self, wanted: &[Wanted<'a>], grid: &Grid, moment: f64) -> Result<Vec<Body>, Diagnostic> {
         let (first, mut nothing) = (self.subject, None);
         let mut bodies = Vec::with_capacity(wanted.len());
-        for one in wanted {
+        for (place, one) in wanted.iter().enumerate() {
             // What is told meanwhile is told of that object.
             self.subject = one.subject;
             match self.mesh(one.subject.node, &one.shape, grid, moment)? {
                 (Some(mesh), line, _) => {
                     let colours = one.paint.as_ref().map(|paint| self.colours(paint, &mesh, moment)).transpose()?;
-                    bodies.push(Body { name: one.subject.name.to_string(), mesh, colours, tint: [255; 4], line });
+                    let name = one.subject.name.to_string();
+                    bodies.push(Body { name, mesh, colours, tint: [255; 4], line, place });
                 }
                 (None, _, report) => {
                     nothing.get_or_insert(report);
@@ -185,7 +193,7 @@ impl<'a> Making<'a> {
                 match self.mesh(member.node, &member.shape, grid, moment)? {
                     (Some(mesh), line, _) => {
                         let (name, tint) = (member.label.clone(), [*r, *g, *b, SHOWS_THROUGH]);
-                        bodies.push(Body { name, mesh, colours: None, tint, line });
+                        bodies.push(Body { name, mesh, colours: None, tint, line, place: 0 });
                     }
                     (None, ..) => self.missing(&member.label),
                 }
