@@ -89,6 +89,37 @@ pub fn check(mesh: &Mesh) -> Result<Topology, Fault> {
     Ok(Topology { vertices, edges, triangles, euler, components, genus: components as i64 - euler / 2 })
 }
 
+/// Checks the vertices of a mesh, and the triangles about some of them: what is left to check where the rest is as it was.
+///
+/// # Errors
+/// A [`Fault`] about one of those vertices.
+pub(super) fn check_about(mesh: &Mesh, is_about: &[bool]) -> Result<(), Fault> {
+    check_vertices(mesh)?;
+    let is_near = |t: &&[u32; 3]| t.iter().any(|&v| is_about.get(v as usize).is_none_or(|about| *about));
+    let near: Vec<[u32; 3]> = mesh.triangles.par_iter().filter(is_near).copied().collect();
+    let mut vertices: Vec<u32> = near.iter().flatten().copied().collect();
+    vertices.par_sort_unstable();
+    vertices.dedup();
+    if let Some(&v) = vertices.last()
+        && v as usize >= mesh.positions.len()
+    {
+        return Err(Fault::NoSuchVertex(0));
+    }
+    let number = |v: u32| vertices.partition_point(|&other| other < v) as u32;
+    let part = Mesh {
+        positions: vertices.iter().map(|&v| mesh.positions[v as usize]).collect(),
+        normals: Vec::new(),
+        triangles: near.par_iter().map(|t| t.map(number)).collect(),
+    };
+    check_triangles(&part)?;
+    let corners = Corners::of(&part);
+    let about = vertices.par_iter().enumerate().filter(|(_, v)| is_about[**v as usize]);
+    match about.find_map_first(|(v, _)| corners.fault(&part, v)) {
+        Some(fault) => Err(fault),
+        None => Ok(()),
+    }
+}
+
 /// The bits of a coordinate in single precision; both zeros are one.
 fn single(position: [f64; 3]) -> [u32; 3] {
     position.map(|c| (c as f32 + 0.0).to_bits())
