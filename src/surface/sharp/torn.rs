@@ -80,8 +80,8 @@ impl Parts {
         let is_solid = volume > 0.0;
         vertices.par_iter().all(|&v| {
             let place = mesh.positions[v as usize];
-            // Not on the surface, and in no line with its vertices.
-            let shares = [0.001, 0.001_1, 0.001_2];
+            // Well within, since surfaces bend between vertices; and in no line with those.
+            let shares = [0.5, 0.500_1, 0.500_2];
             let point = std::array::from_fn(|d| place[d] + shares[d] * (middle[d] - place[d]));
             (turns(other, point) > 0) == is_solid
         })
