@@ -97,19 +97,18 @@ pub(super) fn check_about(mesh: &Mesh, is_about: &[bool]) -> Result<(), Fault> {
     check_vertices(mesh)?;
     let is_near = |t: &&[u32; 3]| t.iter().any(|&v| is_about.get(v as usize).is_none_or(|about| *about));
     let near: Vec<[u32; 3]> = mesh.triangles.par_iter().filter(is_near).copied().collect();
-    let mut vertices: Vec<u32> = near.iter().flatten().copied().collect();
-    vertices.par_sort_unstable();
-    vertices.dedup();
-    if let Some(&v) = vertices.last()
-        && v as usize >= mesh.positions.len()
-    {
-        return Err(Fault::NoSuchVertex(0));
+    let (mut numbers, mut vertices) = (vec![u32::MAX; mesh.positions.len()], Vec::new());
+    for &v in near.iter().flatten() {
+        let number = numbers.get_mut(v as usize).ok_or(Fault::NoSuchVertex(0))?;
+        if *number == u32::MAX {
+            *number = vertices.len() as u32;
+            vertices.push(v);
+        }
     }
-    let number = |v: u32| vertices.partition_point(|&other| other < v) as u32;
     let part = Mesh {
         positions: vertices.iter().map(|&v| mesh.positions[v as usize]).collect(),
         normals: Vec::new(),
-        triangles: near.par_iter().map(|t| t.map(number)).collect(),
+        triangles: near.iter().map(|t| t.map(|v| numbers[v as usize])).collect(),
     };
     check_triangles(&part)?;
     let corners = Corners::of(&part);

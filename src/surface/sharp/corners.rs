@@ -236,7 +236,7 @@ impl Corners<'_> {
             _ => return Err(Plain::Apart),
         };
         let is_far = self.scale.cells(middle, at).iter().any(|way| way.abs() > REACH);
-        if is_far || !self.scale.holds(at, self.grid.dimension()) {
+        if is_far || self.scale.beyond(at, self.grid.dimension()).is_some() {
             return Err(Plain::Outside);
         }
         let value = Local::values(&self.shape.program, &[at], &mut self.sampler)[0];

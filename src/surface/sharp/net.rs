@@ -226,7 +226,7 @@ impl<'a> Net<'a> {
             let mut is_better = false;
             for &number in &wrong {
                 if self.is_wrong(number) {
-                    is_better |= self.best_flip(number) || self.best_draw(number);
+                    is_better |= self.improve(number);
                 }
             }
             if !is_better {
@@ -252,7 +252,22 @@ impl<'a> Net<'a> {
         (new.map(|piece| piece.corners).collect(), gone.collect())
     }
 
-    fn best_flip(&mut self, number: u32) -> bool {
+    /// Does whatever gains most of what can be done about a triangle. Whether anything can.
+    fn improve(&mut self, number: u32) -> bool {
+        let (flip, draw) = (self.best_flip(number), self.best_draw(number));
+        let least = 1e-9 * self.unit;
+        match (flip.filter(|flip| flip.0 > least), draw.filter(|draw| draw.0 > least)) {
+            // A flip that gains as much leaves all vertices.
+            (Some((gain, other, corners)), draw) if draw.is_none_or(|draw| draw.0 <= 1.001 * gain) => {
+                self.flip(number, other, corners);
+            }
+            (_, Some((_, from, to))) => self.draw(from, to),
+            _ => return false,
+        }
+        true
+    }
+
+    fn best_flip(&mut self, number: u32) -> Option<(f64, u32, [u32; 4])> {
         let piece = self.pieces[number as usize];
         let mut best: Option<(f64, u32, [u32; 4])> = None;
         for k in 0..3 {
@@ -264,31 +279,25 @@ impl<'a> Net<'a> {
             }
             let before = piece.cost + self.pieces[other as usize].cost;
             let hints = [piece.surface, self.pieces[other as usize].surface];
-            let after = self.cost([c, a, d], &hints).0 + self.cost([c, d, b], &hints).0;
-            let gain = before - after;
-            if gain > 1e-9 * self.unit && best.is_none_or(|(most, ..)| gain > most) {
+            let gain = before - self.cost([c, a, d], &hints).0 - self.cost([c, d, b], &hints).0;
+            if best.is_none_or(|(most, ..)| gain > most) {
                 best = Some((gain, other, [a, b, c, d]));
             }
         }
-        let Some((_, other, corners)) = best else { return false };
-        self.flip(number, other, corners);
-        true
+        best
     }
 
-    fn best_draw(&mut self, number: u32) -> bool {
-        let piece = self.pieces[number as usize];
+    fn best_draw(&mut self, number: u32) -> Option<(f64, u32, u32)> {
         let mut best: Option<(f64, u32, u32)> = None;
-        for from in piece.corners {
+        for from in self.pieces[number as usize].corners {
             for to in self.neighbours(from) {
                 let Some(gain) = self.gain(from, to) else { continue };
-                if gain > 1e-9 * self.unit && best.is_none_or(|(most, ..)| gain > most) {
+                if best.is_none_or(|(most, ..)| gain > most) {
                     best = Some((gain, from, to));
                 }
             }
         }
-        let Some((_, from, to)) = best else { return false };
-        self.draw(from, to);
-        true
+        best
     }
 
     /// The triangles about a new vertex.

@@ -103,6 +103,8 @@ struct Open {
     surfaces: Surfaces,
     stage: Stage,
     unseen: usize,
+    /// A place within the space from which to look for them in the plane across an axis.
+    aim: Option<(usize, [f64; 3])>,
 }
 
 /// A question: where these pieces meet near a place, in the plane across an axis if there is one.
@@ -285,7 +287,8 @@ impl Student<'_> {
                 let own = known[&(piece_of[&v], v)];
                 own.distance().is_nan() || own.distance() > 10.0 * self.scale.near
             });
-            let mut open = Open { facet, cell: *cell, corners, numbers, surfaces, stage: Stage::Pairs, unseen: 0 };
+            let mut open =
+                Open { facet, cell: *cell, corners, numbers, surfaces, stage: Stage::Pairs, unseen: 0, aim: None };
             if is_step {
                 study.facets[facet].failed = Some(Plain::Step);
                 open.stage = Stage::Done;
@@ -349,8 +352,8 @@ impl Student<'_> {
                 Stage::Corner(pieces) => questions.push(Question {
                     open: number,
                     pieces: pieces.clone(),
-                    axis: None,
-                    from: mean(&crossed),
+                    axis: open.aim.map(|(axis, _)| axis),
+                    from: open.aim.map_or_else(|| mean(&crossed), |(_, from)| from),
                     side: None,
                 }),
             }
@@ -470,8 +473,16 @@ impl Student<'_> {
                 let open = &mut opens[candidate.open];
                 let middle = open.middle(open.crossed().first().copied().unwrap_or(0));
                 let far = self.scale.cells(middle, candidate.at).iter().any(|way| way.abs() > REACH);
-                if far || !self.scale.holds(candidate.at, self.grid.dimension()) {
+                if far {
                     fail(open, study, Plain::Outside);
+                } else if let Some(aim) = self.scale.beyond(candidate.at, self.grid.dimension()) {
+                    // Where a crease leaves the space its last point is just within.
+                    if candidate.pieces.len() > 2 || open.aim.is_some() {
+                        fail(open, study, Plain::Outside);
+                        continue;
+                    }
+                    open.aim = Some(aim);
+                    open.stage = Stage::Corner(candidate.pieces);
                 } else if candidate.is_boundary(value, &self.scale) {
                     let ring = open.corners.iter().map(|corner| corner.vertex).collect();
                     study.facets[open.facet].parts.push((ring, Fill::Fan(candidate.site(candidate.at))));
@@ -539,6 +550,7 @@ impl Student<'_> {
             surfaces: open.surfaces.clone(),
             stage: Stage::Pairs,
             unseen: 0,
+            aim: None,
         };
         let rest = open.corners[j..].iter().chain(&open.corners[..=i]).cloned().collect();
         Some([part(open.corners[i..=j].to_vec()), part(rest)])
