@@ -28,6 +28,7 @@ mod parser;
 mod picture;
 mod plots;
 mod propagation;
+mod povray;
 mod prospero;
 mod questions;
 mod rays;
