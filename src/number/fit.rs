@@ -87,6 +87,16 @@ pub fn least_squares<E>(
             break;
         }
     }
+    // Where the residuals stay large, their sum cannot tell places that differ in the last half of the digits; the pull still can.
+    for _ in 0..3 {
+        let Some(step) = step(&here, 0.0, &scales) else { break };
+        let next: Vec<f64> = at.iter().zip(&step).map(|(p, d)| p + d).collect();
+        let there = ask(&next)?;
+        if undefined(&there).is_some() || pull(&there, &scales) >= pull(&here, &scales) {
+            break;
+        }
+        (at, here) = (next, there);
+    }
     #[allow(clippy::cast_precision_loss)]
     let mean = (cost / here.values.len() as f64).sqrt();
     if is_least(&at, &here, cost) { Ok(Ok(at)) } else { Ok(Err(Unfit::Diverges(at, mean))) }
@@ -94,6 +104,11 @@ pub fn least_squares<E>(
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// How strongly the residuals pull at the parameters, in units of the columns.
+fn pull(here: &Residuals, scales: &[f64]) -> f64 {
+    here.slopes.iter().zip(scales).map(|(column, scale)| dot(column, &here.values).powi(2) / scale).sum()
 }
 
 /// The first residual that is not finite, or whose derivatives are not.
