@@ -16,9 +16,10 @@ use crate::interrupt::{Cancelled, Interrupt};
 use crate::vm::{Program, Shape};
 
 use search::{Climb, Ends, Search, Stop, width};
+pub(super) use search::{middle, squeezed};
 
 /// Where "far away" begins: an object with a point beyond it is taken for one without end.
-const FAR: f64 = (1_u64 << 40) as f64;
+pub(super) const FAR: f64 = (1_u64 << 40) as f64;
 /// Part of an axis to which an end is known when it is first narrowed, and at last.
 const ROUGH: f64 = 1.0 / 8.0;
 const FINE: f64 = 1.0 / 256.0;

@@ -12,6 +12,7 @@ mod extremum;
 mod fold;
 mod operators;
 mod outline;
+mod questions;
 mod repeat;
 mod star;
 mod statement;

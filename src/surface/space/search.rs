@@ -511,12 +511,12 @@ pub(super) fn is_point([lo, hi]: [f64; 2]) -> bool {
     hi - lo <= 1e-9 * (1.0 + lo.abs().max(hi.abs()))
 }
 
-fn squeezed(x: f64) -> f64 {
+pub(in crate::surface) fn squeezed(x: f64) -> f64 {
     if x.is_infinite() { x.signum() } else { x / (1.0 + x.abs()) }
 }
 
 /// Where a range is split: at 0 if it lies well within, else in the middle, on a scale of powers where the range is long.
-fn middle([lo, hi]: [f64; 2]) -> f64 {
+pub(in crate::surface) fn middle([lo, hi]: [f64; 2]) -> f64 {
     if lo < 0.0 && hi > 0.0 {
         let balanced = lo.is_infinite() || hi.is_infinite() || lo.abs().min(hi) >= 0.25 * (hi - lo);
         return if balanced { 0.0 } else { 0.5 * lo + 0.5 * hi };
