@@ -11,7 +11,7 @@ mod table;
 mod waves;
 
 pub use forms::RAMP;
-pub use questions::Question;
+pub use questions::{Measure, Question};
 pub use table::{Arity, Builtin, Special, Subject, Term};
 pub use table::{Meaning, WrongCount};
 

@@ -145,6 +145,26 @@ pub fn reach(
     }))
 }
 
+/// The part of a space that may hold some of an object, as far as it takes to bring ends that are infinite to somewhere finite; at most so
+/// many boxes, roughly, are looked at. An end that intervals leave open stays infinite. `None` if it is proved that nothing is anywhere.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+pub fn enclose(
+    program: Arc<Program>,
+    space: &[[f64; 2]],
+    boxes: usize,
+    interrupt: &Interrupt,
+) -> Result<Option<Vec<[f64; 2]>>, Cancelled> {
+    let end = |end: f64| end.is_finite().then_some(end);
+    let known: Vec<Known> = space.iter().map(|[lo, hi]| Known::Sought(end(*lo), end(*hi))).collect();
+    let box_ = BOX * (program.len() as u64 + OVERHEAD);
+    let mut search = Search::new(program, &known, box_.saturating_mul(boxes as u64), interrupt);
+    let is_found = search.bring_in()?;
+    interrupt.tick()?;
+    Ok(is_found.then_some(search.outer))
+}
+
 /// The faces of a space beyond which a 3-D shape goes on, as far as some points of each face tell: lower and upper for each axis.
 #[must_use]
 pub fn cut(shape: &Shape, bounds: &[[f64; 2]], interrupt: &Interrupt) -> [[bool; 2]; 3] {

@@ -10,6 +10,8 @@ mod data;
 mod expr;
 mod extremum;
 mod fold;
+mod measured;
+mod nearest;
 mod operators;
 mod outline;
 mod questions;

@@ -1,4 +1,4 @@
-//! The questions about objects: INTERSECTS, INCLUDES, WITNESS. Hands each to the search that answers it and makes a value of the
+//! The questions whether objects meet: INTERSECTS, INCLUDES, WITNESS. Hands each to the search that answers it and makes a value of the
 //! answer; computes nothing itself. Answers are remembered by what the objects are.
 
 use std::sync::Arc;
@@ -24,12 +24,17 @@ impl Lower<'_> {
             (Question::Intersects, [a, b]) => self.intersects(a, b, span),
             (Question::Includes, [a, b]) => self.includes(a, b, span),
             (Question::Witness, all) => self.witness(all, span),
+            (Question::Measure(of), all) => self.measured(of, all, span).map(|found| found.values()),
+            (Question::Distance, [g, p]) => self.distance(g, p, span).map(|found| found.values()),
+            (Question::Closest, [g, p]) => self.closest(g, p, span),
+            (Question::Curve, [a, b, cells @ ..]) => self.curve(a, b, cells.first(), span),
+            (Question::Uncertainty, [of]) => self.uncertainty(of),
             _ => Ok(Value::number(f64::NAN)),
         }
     }
 
     /// An argument that is an object: a function of coordinates that a text can name, or a number everywhere.
-    fn object(&mut self, e: &Expr, name: &str) -> Lowered<NodeId> {
+    pub(super) fn object(&mut self, e: &Expr, name: &str) -> Lowered<NodeId> {
         let scalar = self.scalar(e, &format!("the object of {name}"))?;
         let node = scalar.node(self.graph);
         let is_known = |c: Coordinate| usize::from(c.0) <= Coordinate::NAMED;
@@ -40,7 +45,7 @@ impl Lower<'_> {
     }
 
     /// The coordinates that some objects use.
-    fn axes(&self, objects: &[NodeId]) -> Vec<Coordinate> {
+    pub(super) fn axes(&self, objects: &[NodeId]) -> Vec<Coordinate> {
         let all = objects.iter().fold(Coordinates::default(), |all, id| all.union(self.graph.coordinates(*id)));
         all.iter().collect()
     }
@@ -129,7 +134,7 @@ fn too_large(name: &str, error: CompileError, span: Span) -> Fault {
 }
 
 /// A point as an array: the coordinates up to the highest that is used, 0 for those between that are not.
-fn placed(axes: &[Coordinate], point: &[f64]) -> Value {
+pub(super) fn placed(axes: &[Coordinate], point: &[f64]) -> Value {
     let mut all = vec![0.0; axes.last().map_or(0, |c| usize::from(c.0))];
     for (axis, &c) in axes.iter().zip(point) {
         all[usize::from(axis.0) - 1] = c;

@@ -95,9 +95,7 @@ pub(super) fn climb(
 /// The direction in which, within a radius, the least of the linear forms is highest: that of the sum of the slopes by the weights for which
 /// `sum of w f + radius |sum of w g|` is least (Frank and Wolfe's method).
 fn uphill(here: &Tangents, radius: f64) -> Option<Vec<f64>> {
-    let lowest = |score: &dyn Fn(usize) -> f64| {
-        (0..here.values.len()).min_by(|&a, &b| score(a).total_cmp(&score(b)))
-    };
+    let lowest = |score: &dyn Fn(usize) -> f64| (0..here.values.len()).min_by(|&a, &b| score(a).total_cmp(&score(b)));
     let first = lowest(&|i| here.values[i])?;
     let mut sum = here.slopes[first].clone();
     for turn in 0..TURNS {

@@ -4,11 +4,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::field::{Coordinate, Graph, Node, NodeId};
 use crate::field::derivative::derivative;
+use crate::field::{Coordinate, Graph, Node, NodeId};
+use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
 use crate::number::{Algebra, Binary, Ternary, Unary};
 use crate::reuse::Digest;
+use crate::surface::space::enclose;
 use crate::vm::{CompileError, Demand, Program};
 
 /// Conditions that are looked at by themselves; what an intersection has beyond is looked at together.
@@ -82,6 +84,18 @@ impl Conditions {
         self.add(left, false)
     }
 
+    /// One program for all that asks for the inside: not negative where all of it is met.
+    ///
+    /// # Errors
+    /// If it is too large.
+    pub(super) fn whole(&mut self) -> Result<Arc<Program>, CompileError> {
+        let inside: Vec<NodeId> = self.all.iter().filter(|c| !c.outside).map(|c| c.node).collect();
+        let graph = &mut self.graph;
+        let node = inside.into_iter().reduce(|a, b| graph.binary(Binary::Min, a, b));
+        let node = node.unwrap_or_else(|| graph.constant(1.0));
+        Program::compile(&self.graph, node, &self.axes, Demand::Value, &self.limits).map(Arc::new)
+    }
+
     /// The objects of which [`Conditions::inside`] would make conditions, each by itself.
     #[must_use]
     pub fn parts(graph: &Graph, object: NodeId) -> (Graph, Vec<NodeId>) {
@@ -104,6 +118,27 @@ impl Conditions {
     #[must_use]
     pub fn axes(&self) -> &[Coordinate] {
         &self.axes
+    }
+
+    /// The part of a space in which all conditions that ask for the inside may be met; its ends are finite where intervals can tell. `None` if
+    /// it is proved that there is no such part.
+    pub(super) fn together(
+        &mut self,
+        space: &[[f64; 2]],
+        boxes: usize,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Vec<[f64; 2]>>, Cancelled> {
+        let inside = self.all.iter().filter(|condition| !condition.outside).map(|condition| condition.node);
+        let graph = &mut self.graph;
+        let all = inside.collect::<Vec<_>>().into_iter().reduce(|a, b| graph.binary(Binary::Min, a, b));
+        if space.iter().flatten().all(|end| end.is_finite()) {
+            return Ok(Some(space.to_vec()));
+        }
+        let program = all.map(|node| Program::compile(&self.graph, node, &self.axes, Demand::Sign, &self.limits));
+        match program {
+            Some(Ok(program)) => enclose(Arc::new(program), space, boxes, interrupt),
+            _ => Ok(Some(space.to_vec())),
+        }
     }
 
     /// Whether two conditions say the opposite of each other.

@@ -15,6 +15,9 @@ use crate::vm::{Boxes, Gradients, Program};
 /// Units in the last place of the coordinates within which objects that touch cannot be told from objects that just miss each other.
 const ULPS: f64 = 4.0;
 
+/// How far from the origin that is asked in a space without end.
+const NEAR: f64 = 1e3;
+
 /// A box that may hold a point that meets all conditions.
 struct Part {
     /// How near its middle comes to that, in changes of the conditions within the box.
@@ -87,9 +90,13 @@ pub fn decide(
     if conditions.contradict() {
         return Ok(Verdict::Never);
     }
+    let near = match conditions.together(space, most, interrupt)? {
+        None => return Ok(Verdict::Never),
+        Some(near) => near,
+    };
     let mut search = Search {
         conditions,
-        space,
+        space: &near,
         boxes: Boxes::heeding(interrupt),
         gradients: Gradients::heeding(interrupt),
         interrupt,
@@ -178,6 +185,11 @@ impl Search<'_> {
     /// Whether rounding hides that the objects meet at a point: within some units in the last place of its coordinates no condition can be told
     /// to fail.
     fn touch(&mut self, point: &[f64]) -> bool {
+        // Where space has no end rounding hides any gap, far enough away.
+        let far = self.space.iter().flatten().fold(0.0_f64, |far, end| far.max(end.abs()));
+        if point.iter().any(|c| c.abs() > if far.is_finite() { far } else { NEAR }) {
+            return false;
+        }
         let near = |c: f64| {
             let room = ULPS * f64::EPSILON * c.abs();
             [c - room, c + room]
@@ -312,6 +324,12 @@ impl Search<'_> {
                 // Boxes of which nothing is known come first, the large ones foremost.
                 part.score = change.iter().copied().fold(0.0, f64::max);
             }
+        }
+        // What has no end is brought to one first: else its other sides would be cut for nothing.
+        let endless = |axis: &usize| !(part.sides[*axis][1] - part.sides[*axis][0]).is_finite();
+        if (0..axes).any(|axis| endless(&axis)) {
+            part.along = (0..axes).filter(endless).take(3).collect();
+            return;
         }
         let mut order: Vec<usize> = (0..axes).filter(|&axis| is_divisible(part.sides[axis])).collect();
         order.sort_by(|&a, &b| change[b].total_cmp(&change[a]).then(a.cmp(&b)));

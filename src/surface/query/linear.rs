@@ -8,17 +8,18 @@ pub(super) struct Linear {
     pub(super) value: Interval,
     /// The derivative by each axis over the box.
     pub(super) slopes: Vec<Interval>,
-    /// What the function must exceed: 0, and for a point that is to be outside what rounding makes of a boundary. So objects whose
-    /// boundaries touch from within include each other.
-    slack: Option<f64>,
+    /// What rounding makes of a boundary. A point that is to be outside of an object must be so by more than that: so objects whose boundaries
+    /// touch from within include each other.
+    noise: f64,
+    outside: bool,
 }
 
 impl Linear {
     /// The form about a centre, of a condition that asks for the inside or for the outside.
     pub(super) fn new(value: Interval, slopes: Vec<Interval>, centre: &[[f64; 2]], outside: bool) -> Self {
         let rounding = slopes.iter().zip(centre).map(|(slope, c)| 4.0 * f64::EPSILON * slope.largest() * c[0].abs());
-        let slack = outside.then(|| rounding.sum::<f64>() + 4.0 * (value.hi - value.lo));
-        Self { value, slopes, slack }
+        let noise = rounding.sum::<f64>() + 4.0 * (value.hi - value.lo);
+        Self { value, slopes, noise, outside }
     }
 
     /// Whether the bounds are worth anything.
@@ -77,9 +78,8 @@ pub(super) fn excludes(a: &Linear, b: &Linear, sides: &[[f64; 2]], centre: &[f64
     let best = (cross / square).clamp(0.0, 1.0);
     let fails = |weight: f64| {
         let bounds = sum(&[(weight, a), (1.0 - weight, b)], sides, centre);
-        let slack = |weight: f64, of: &Linear| of.slack.map(|slack| weight * slack);
-        let slack = slack(weight, a).into_iter().chain(slack(1.0 - weight, b)).reduce(|a, b| a + b);
-        bounds.hi < 0.0 || slack.is_some_and(|slack| bounds.hi <= slack)
+        let noise = weight * a.noise + (1.0 - weight) * b.noise;
+        bounds.hi < 0.0 || ((a.outside || b.outside) && bounds.hi <= noise)
     };
     !best.is_nan() && best > 0.0 && best < 1.0 && fails(best)
 }
@@ -87,7 +87,7 @@ pub(super) fn excludes(a: &Linear, b: &Linear, sides: &[[f64; 2]], centre: &[f64
 /// Whether the condition fails all over a box.
 pub(super) fn fails(a: &Linear, sides: &[[f64; 2]], centre: &[f64]) -> bool {
     let bounds = sum(&[(1.0, a)], sides, centre);
-    bounds.hi < 0.0 || a.slack.is_some_and(|slack| bounds.hi <= slack)
+    bounds.hi < 0.0 || (a.outside && bounds.hi <= a.noise)
 }
 
 /// Takes off a box what certainly fails the condition. Whether anything is left.

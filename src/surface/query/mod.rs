@@ -8,11 +8,15 @@
 
 mod climb;
 mod conditions;
+mod crossing;
 mod decide;
 mod linear;
+mod nearest;
 
 pub use conditions::Conditions;
+pub use crossing::{CurveError, crossings, curves};
 pub use decide::decide;
+pub use nearest::{Nearest, NearestError, nearest};
 
 /// What became of the question whether some point meets all conditions.
 #[derive(Clone, Debug, PartialEq)]

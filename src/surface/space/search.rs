@@ -181,6 +181,27 @@ impl<'a> Search<'a> {
         Ok(Ends::Open)
     }
 
+    /// Brings those ends from infinity to somewhere finite for which intervals can tell. Whether anything may be left.
+    pub(super) fn bring_in(&mut self) -> Result<bool, Cancelled> {
+        loop {
+            let mut open = self.ends();
+            open.retain(|&(axis, up)| self.outer[axis][usize::from(up)].is_infinite());
+            let before = open.len();
+            let share = self.left() / (64 * before.max(1) as u64);
+            for &(axis, up) in &open {
+                match self.climb(axis, up, Stop::Finite, share)? {
+                    Climb::Reach(at) => self.outer[axis][usize::from(up)] = at,
+                    Climb::Nothing => return Ok(false),
+                    Climb::Open | Climb::Endless => {}
+                }
+            }
+            open.retain(|&(axis, up)| self.outer[axis][usize::from(up)].is_infinite());
+            if open.is_empty() || open.len() == before {
+                return Ok(true);
+            }
+        }
+    }
+
     /// An object without end in some directions: those too in which points far away say so.
     fn all_endless(&mut self, mut found: Vec<(usize, bool)>) -> Result<Vec<(usize, bool)>, Cancelled> {
         let mut open = self.ends();
