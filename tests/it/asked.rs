@@ -1,6 +1,9 @@
 //! Questions that programs ask of objects, as built-ins: answers against closed forms and numeric searches, and that they follow when an
 //! object changes.
 
+mod measured;
+mod nearest;
+
 use std::sync::Arc;
 
 use yont::host::Memory;
@@ -12,6 +15,8 @@ use yont::model::{Event, Session, Value};
 use yont::syntax::Mode;
 
 use crate::session::messages;
+
+const PI: f64 = std::f64::consts::PI;
 
 fn asked(script: &str) -> Session {
     let mut session = Session::new(Arc::new(Memory::default()), Limits::default(), Interrupt::default());

@@ -6,10 +6,12 @@ use std::sync::Arc;
 use crate::builtins::{self, Meaning, Measure, Question, Special};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::field::{Coordinate, NodeId};
+use crate::reuse::Digest;
 use crate::source::Span;
 use crate::surface::estimate::{Bend, Estimate};
 use crate::surface::grid::MOST_CELLS;
-use crate::surface::space::{Known, Outcome, find, reach};
+use crate::surface::query::{NearestError, farthest};
+use crate::surface::space::{Known, Outcome, find};
 use crate::syntax::tree::{Expr, ExprKind};
 use crate::vm::{Demand, Program, Shape};
 
@@ -24,8 +26,6 @@ use super::{Fault, Lower, Lowered};
 pub(super) const CELLS: usize = 128;
 /// What an answer takes in memory, roughly.
 const ANSWER: usize = 1024;
-/// Accuracy of BOUNDS, as a part of the longest side.
-const REACH: f64 = 1e-9;
 
 /// What was measured: numbers with their errors, in the form of the answer.
 #[derive(Clone, Debug)]
@@ -201,28 +201,39 @@ impl Lower<'_> {
         let Space::Within(ranges) = self.space_of(name, node, axes, span)? else {
             return Err(errors::measure_of_nothing(name, span).into());
         };
-        let (limits, interrupt) = (self.world.limits, self.world.interrupt);
-        let program = Program::compile(self.graph, node, axes, Demand::Sign, limits)
+        let conditions = self.both(name, &[node], span)?;
+        let Some(from) = self.decided(name, "whether the object is empty", conditions, span)? else {
+            return Err(errors::measure_of_nothing(name, span).into());
+        };
+        let (limits, interrupt, graph) = (self.world.limits, self.world.interrupt, &*self.graph);
+        let program = Program::compile(graph, node, axes, Demand::Value, limits)
             .map_err(|error| errors::question_too_large(name, error, span))?;
-        let program = Arc::new(program);
-        let ranges: Vec<(f64, f64)> = ranges.into_iter().map(|[lo, hi]| (lo, hi)).collect();
-        let work = limits.search_operations / 10;
-        let found = interrupt.whole(
-            "reaches",
-            |to| {
-                program.tell(&[], to);
-                to.shown(&(&ranges, work));
-            },
-            |_| ANSWER,
-            || reach(Arc::clone(&program), &ranges, REACH, work, interrupt),
-        )?;
-        let Some(found) = found else { return Err(errors::measure_unknown(name, span).into()) };
+        let tell = |to: &mut Digest| {
+            program.tell(&[], to);
+            to.shown(&(&ranges, limits.question_boxes));
+        };
+        let ends = || {
+            let each = |k: usize| [false, true].map(|up| (k, up));
+            let find = |(k, up)| farthest(graph, node, (axes, &ranges), (k, up, &from), (limits, interrupt));
+            (0..axes.len()).flat_map(each).map(find).collect::<Result<Vec<_>, NearestError>>()
+        };
+        let _phase = interrupt.phase("questions");
+        let found = interrupt.whole("reaches", tell, |_| ANSWER, ends).map_err(|error| match error {
+            NearestError::Cancelled => Fault::Cancelled,
+            NearestError::Compile(error) => errors::question_too_large(name, error, span).into(),
+        })?;
+        // Where the proof fails, the space that was found by intervals holds all the same.
+        let estimate = |(k, found): (usize, &Option<[f64; 2]>)| match *found {
+            Some([value, error]) => Estimate { value, error },
+            None => Estimate::between(from[k / 2], ranges[k / 2][k % 2]),
+        };
+        let found: Vec<Estimate> = found.iter().enumerate().map(estimate).collect();
         let mut rows = vec![[Estimate { value: 0.0, error: 0.0 }; 2]; axes.last().map_or(0, |c| usize::from(c.0))];
         for row in &mut rows {
             *row = [f64::NEG_INFINITY, f64::INFINITY].map(|value| Estimate { value, error: 0.0 });
         }
-        for (axis, ends) in axes.iter().zip(found) {
-            rows[usize::from(axis.0) - 1] = ends.map(|[a, b]| Estimate::between(a, b));
+        for (axis, ends) in axes.iter().zip(found.chunks_exact(2)) {
+            rows[usize::from(axis.0) - 1] = [ends[0], ends[1]];
         }
         Ok(Estimates::Many(rows.into_iter().map(Estimates::list).collect()))
     }

@@ -98,7 +98,7 @@ impl Lower<'_> {
     }
 
     /// The conditions of a point of all these objects.
-    fn both(&mut self, name: &str, objects: &[NodeId], span: Span) -> Lowered<Conditions> {
+    pub(super) fn both(&mut self, name: &str, objects: &[NodeId], span: Span) -> Lowered<Conditions> {
         let mut conditions = Conditions::over(&self.axes(objects), self.world.limits);
         let told = objects.iter().try_for_each(|&object| conditions.inside(self.graph, object));
         told.map_err(|error| too_large(name, error, span))?;
@@ -106,7 +106,13 @@ impl Lower<'_> {
     }
 
     /// A point that meets the conditions, or none; an error if that is not known.
-    fn decided(&mut self, name: &str, what: &str, mut conditions: Conditions, span: Span) -> Lowered<Option<Vec<f64>>> {
+    pub(super) fn decided(
+        &mut self,
+        name: &str,
+        what: &str,
+        mut conditions: Conditions,
+        span: Span,
+    ) -> Lowered<Option<Vec<f64>>> {
         let (limits, interrupt) = (self.world.limits, self.world.interrupt);
         let boxes = limits.question_boxes;
         let axes = conditions.axes().to_vec();

@@ -84,6 +84,18 @@ impl Conditions {
         self.add(left, false)
     }
 
+    /// The point is to lie beyond a place on an axis.
+    ///
+    /// # Errors
+    /// None but those of [`Conditions::inside`].
+    pub fn beyond(&mut self, (axis, up): (usize, bool), place: f64) -> Result<(), CompileError> {
+        let graph = &mut self.graph;
+        let (x, place) = (graph.coordinate(self.axes[axis]), graph.constant(place));
+        let (more, less) = if up { (x, place) } else { (place, x) };
+        let beyond = graph.binary(Binary::Sub, more, less);
+        self.add(beyond, false)
+    }
+
     /// One program for all that asks for the inside: not negative where all of it is met.
     ///
     /// # Errors

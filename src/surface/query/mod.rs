@@ -16,7 +16,7 @@ mod nearest;
 pub use conditions::Conditions;
 pub use crossing::{CurveError, crossings, curves};
 pub use decide::decide;
-pub use nearest::{Nearest, NearestError, nearest};
+pub use nearest::{Nearest, NearestError, farthest, nearest};
 
 /// What became of the question whether some point meets all conditions.
 #[derive(Clone, Debug, PartialEq)]

@@ -14,6 +14,9 @@ use crate::vm::{CompileError, Gradients, Pieces, Points, Program};
 const PROOFS: [f64; 4] = [1e-2, 1e-4, 1e-7, 1e-10];
 /// Times that a nearer point may be found; each takes at least the first of those parts off.
 const ROUNDS: usize = 400;
+/// Times that a point is brought farther along an axis, each by a point that lies so many sizes of the object ahead.
+const CLIMBS: usize = 30;
+const AHEAD: f64 = 100.0;
 /// Steps of Newton's method.
 const STEPS: usize = 40;
 /// Pieces of a boundary that may meet at a point.
@@ -111,6 +114,63 @@ pub fn nearest(
     let distance = polish.distance(&place);
     let error = distance - proved.map_or(0.0, |proved: f64| proved.min(distance));
     Ok(Nearest::Found { place, distance, error })
+}
+
+/// How far an object reaches along one of its axes, within a space that holds all of it: the coordinate, and what the object may reach beyond it at
+/// most. `None` if it could not be decided. `from` is a point of the object.
+///
+/// # Errors
+/// See [`NearestError`].
+pub fn farthest(
+    graph: &Graph,
+    object: NodeId,
+    (axes, space): (&[Coordinate], &[[f64; 2]]),
+    (axis, up, from): (usize, bool, &[f64]),
+    (limits, interrupt): (&Limits, &Interrupt),
+) -> Result<Option<[f64; 2]>, NearestError> {
+    let sign = if up { 1.0 } else { -1.0 };
+    let size = space.iter().map(|[lo, hi]| hi - lo).fold(0.0, f64::max);
+    let mut all = Conditions::over(axes, limits);
+    all.inside(graph, object)?;
+    let program = all.whole()?;
+    // The farthest point is the nearest to one that lies far in that direction, and from there again.
+    let climb = |mut place: Vec<f64>| {
+        for _ in 0..CLIMBS {
+            let mut to = place.clone();
+            to[axis] += sign * AHEAD * size;
+            let next = Polish::new(Arc::clone(&program), &to, interrupt).nearer(place.clone());
+            if sign * next[axis] <= sign * place[axis] {
+                break;
+            }
+            place = next;
+        }
+        place
+    };
+    let mut place = climb(from.to_vec());
+    let (mut proof, mut proved) = (0, None);
+    for _ in 0..ROUNDS {
+        let Some(&part) = PROOFS.get(proof) else { break };
+        let bound = place[axis] + sign * part * size;
+        let mut conditions = Conditions::over(axes, limits);
+        conditions.inside(graph, object)?;
+        conditions.beyond((axis, up), bound)?;
+        match decide(&mut conditions, space, limits.question_boxes, interrupt)? {
+            Verdict::Never => {
+                proved = Some(part * size);
+                proof += 1;
+            }
+            Verdict::At(point) => {
+                let next = climb(point);
+                if sign * next[axis] <= sign * place[axis] {
+                    break;
+                }
+                place = next;
+            }
+            Verdict::Open(_) => break,
+        }
+    }
+    interrupt.tick()?;
+    Ok(proved.map(|error| [place[axis], error]))
 }
 
 /// Brings points of an object nearer to a point outside.
