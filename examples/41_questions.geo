@@ -7,7 +7,7 @@
   Shows:    CURVE, CLOSEST, DISTANCE, INTERSECTS, VOLUME and BOUNDS within definitions.
   Run:      yont examples/41_questions.geo -o questions.png --object gob_seams,gob_lamp,gob_rods,gob_ring,gob_bar,gob_block
             yont measure examples/41_questions.geo --object gob_ring
-  Expected: four seams, two on each side, and a block right below the ring; the ring has the volume = 14.2122 }
+  Expected: two seams, one on each side, and a block right below the ring; the ring has the volume = 14.2122 }
 
 gob_ring = pob_torus_y([0, 0, 0], 2, 0.6);
 gob_bar  = (0.4**2 - (x2 + 0.25*x1)**2 - (x3 - 0.2)**2) & 3.6 - ABS(x1) | pob_sphere([3.6, -0.9, 0.2], knob) | pob_sphere([-3.6, 0.9, 0.2], knob);
