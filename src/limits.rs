@@ -36,6 +36,8 @@ pub struct Limits {
     pub question_boxes: usize,
     /// Nodes that the analysis of an object along rays looks at, for one centre.
     pub ray_nodes: usize,
+    /// Operations of an object that is written as functions of POV-Ray; a longer one is a mesh alone there.
+    pub pov_operations: usize,
     /// Frames of one animation or numbered series.
     pub frames: usize,
     /// Pixels along one side of a picture.
@@ -64,6 +66,7 @@ impl Default for Limits {
             search_operations: 300_000_000,
             question_boxes: 200_000,
             ray_nodes: 2_000_000,
+            pov_operations: 20_000,
             frames: 10_000,
             picture_side: 16_384,
             reuse_bytes: 256 << 20,

@@ -3,9 +3,11 @@
 
 use super::table::{Builtin, Meaning, Special, Subject};
 
-/// The file that the example of INTERPOLATE reads: its name and its content, two samples 0 and 1 at 0 and 1.
-pub const RAMP: (&str, &str) =
-    ("ramp.nrrd", "NRRD0004\ntype: float\ndimension: 1\nsizes: 2\nspacings: 1\nencoding: ascii\n\n0 1\n");
+/// The files that the examples read, by name: two samples 0 and 1 at 0 and 1; a tetrahedron with the corners 0, 4 x1, 4 x2 and 4 x3.
+pub const FILES: &[(&str, &[u8])] = &[
+    ("ramp.nrrd", b"NRRD0004\ntype: float\ndimension: 1\nsizes: 2\nspacings: 1\nencoding: ascii\n\n0 1\n"),
+    ("corner.obj", b"v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"),
+];
 
 const fn entry(
     form: Special,
@@ -199,5 +201,14 @@ pub(super) static TABLE: &[Builtin] = &[
         "The body about a medial axis: the points are the rows of P, each with a radius from R, joined along edges, rows of two numbers of \
          points; the radius runs linearly along an edge. Its value is R^2 less the squared distance, the highest over the edges.",
         ("MEDIAL([[0, 0, 0], [4, 0, 0]], [1, 1], [[1, 2]]) AT (x1 = 2, x2 = 0.5, x3 = 0)", 0.75),
+    ),
+    entry(
+        Special::Mesh,
+        Data,
+        "MESH",
+        &["file", "..."],
+        "The solid within the closed mesh of an .obj or .stl file: the distance to the nearest triangle, positive where the mesh goes round \
+         the point, at x1, x2, x3 or at three expressions behind the file.",
+        ("MESH(\"corner.obj\") AT (x1 = 1, x2 = 0.5, x3 = 1)", 0.5),
     ),
 ];

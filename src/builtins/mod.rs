@@ -10,7 +10,7 @@ mod questions;
 mod table;
 mod waves;
 
-pub use forms::RAMP;
+pub use forms::FILES;
 pub use questions::{Measure, Question};
 pub use table::{Arity, Builtin, Special, Subject, Term};
 pub use table::{Meaning, WrongCount};

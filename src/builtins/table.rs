@@ -126,6 +126,8 @@ pub enum Special {
     Medial,
     /// `INTERSECTS(g1, g2)` and others
     Question(Question),
+    /// `MESH(file)`, `MESH(file, e1, e2, e3)`
+    Mesh,
 }
 
 /// A formula over the primitives; `Argument(0)` is the first argument.
@@ -249,6 +251,7 @@ impl Builtin {
                 S::Project => Arity::Exactly(4),
                 S::Interpolate => Arity::Between(3, 5),
                 S::Question(question) => question.arity(),
+                S::Mesh => Arity::Between(1, 4),
             },
         }
     }

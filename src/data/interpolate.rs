@@ -7,6 +7,7 @@
 use std::sync::Arc;
 
 use super::error::DataError;
+use super::fingerprint::Fingerprint;
 use super::place::Locator;
 use super::pyramid::{Pyramid, Range};
 use super::volume::{Samples, Volume};
@@ -398,22 +399,18 @@ fn breaks((lo, hi): (f64, f64), count: usize, stops: &mut [f64; 5]) -> Option<us
     Some(filled)
 }
 
-/// A hash of the kind, the size, the place and the samples: each step is a bijection of the state, so two volumes that differ in
-/// one sample never collide.
+/// A hash of the kind, the size, the place and the samples.
 fn fingerprint(volume: &Volume, kind: Interpolation) -> u128 {
-    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013B;
-    let mut state: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
-    let mut add = |word: u64| state = ((state ^ u128::from(word)).wrapping_mul(PRIME)).rotate_left(29);
-    add(kind as u64);
-    volume.size.iter().for_each(|&n| add(n as u64));
+    let mut hash = Fingerprint::new(kind as u64);
+    volume.size.iter().for_each(|&n| hash.add(n as u64));
     let place = &volume.placement;
-    place.origin.iter().chain(place.directions.iter().flatten()).for_each(|v| add(v.to_bits()));
+    place.origin.iter().chain(place.directions.iter().flatten()).for_each(|v| hash.add(v.to_bits()));
     match &volume.samples {
         Samples::Bytes(all) => {
-            all.chunks(8).for_each(|chunk| add(chunk.iter().fold(0, |word, &b| word << 8 | u64::from(b))));
+            all.chunks(8).for_each(|chunk| hash.add(chunk.iter().fold(0, |word, &b| word << 8 | u64::from(b))));
         }
-        Samples::Singles(all) => all.iter().for_each(|v| add(u64::from(v.to_bits()))),
-        Samples::Doubles(all) => all.iter().for_each(|v| add(v.to_bits())),
+        Samples::Singles(all) => all.iter().for_each(|v| hash.add(u64::from(v.to_bits()))),
+        Samples::Doubles(all) => all.iter().for_each(|v| hash.add(v.to_bits())),
     }
-    state
+    hash.value()
 }

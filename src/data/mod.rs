@@ -1,17 +1,21 @@
-//! Decodes volumes from bytes into leaves, and polygons into formulas. Knows no disk: it gets bytes, and asks a callback for the file that a header names.
+//! Decodes volumes and meshes from bytes into leaves, and polygons into formulas. Knows no disk: it gets bytes, and asks a callback for the file that a header names.
 //!
 //! Formats: NRRD ([`nrrd`]), raw files named `name_WxHxD_type.raw` ([`raw`]), text `.dat` files ([`text`]). A file that starts with
 //! `NRRD` is an NRRD whatever its name. Nothing here panics on any bytes, and nothing takes more memory than the limits say: a
 //! header is believed only as far as there are data.
 
+mod ears;
 pub mod error;
+mod fingerprint;
 pub mod interpolate;
+pub mod mesh;
 pub mod nrrd;
 pub mod obj;
 pub mod place;
 pub mod polygon;
 pub mod pyramid;
 pub mod raw;
+pub mod stl;
 pub mod stream;
 pub mod text;
 pub mod volume;

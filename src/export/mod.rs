@@ -7,6 +7,7 @@ pub mod nrrd;
 pub mod obj;
 pub mod ply;
 pub mod png;
+pub mod pov;
 pub mod quantise;
 pub mod stl;
 pub mod svg;

@@ -7,6 +7,8 @@ pub mod facts;
 pub mod graph;
 pub mod rays;
 pub mod region;
+pub mod slopes;
+pub mod steepness;
 
 pub use derivative::derivative;
 pub use facts::operations;

@@ -92,15 +92,15 @@ impl Session {
         Ok(broken(format!("{name} = BEGIN {sets}; {name} = {body}; END;"), rewritten))
     }
 
-    /// The words for each leaf: the first two arguments of INTERPOLATE.
+    /// The words for each leaf: its call as far as the file.
     fn leaves(&self, folder: Option<&Path>) -> impl Fn(&SharedLeaf) -> Option<String> {
         let known: Vec<(u128, PathBuf, String)> = self.files.known().collect();
         let host = self.host.clone();
         let folder = folder.map(Path::to_path_buf);
         move |leaf| {
-            let (_, path, kind) = known.iter().find(|(fingerprint, ..)| *fingerprint == leaf.0.fingerprint())?;
+            let (_, path, call) = known.iter().find(|(fingerprint, ..)| *fingerprint == leaf.0.fingerprint())?;
             let path = crate::host::seen_from(&*host, folder.as_deref(), path);
-            Some(format!("\"{kind}\", \"{}\"", path.display()))
+            Some(format!("{call}\"{}\"", path.display()))
         }
     }
 }
@@ -147,7 +147,7 @@ pub(super) type Named = (String, String);
 pub(super) fn expressions(graph: &Graph, roots: &[NodeId]) -> Result<(Vec<String>, Vec<Named>), String> {
     let (nodes, uses) = counted(graph, roots);
     let main = main_system(graph, &nodes);
-    let mut writer = Writer::new(graph, uses, main, |leaf| Some(format!("\"{}\"", leaf.0.name())));
+    let mut writer = Writer::new(graph, uses, main, |leaf| Some(format!("DATA(\"{}\"", leaf.0.name())));
     nodes.into_iter().try_for_each(|node| writer.add(node))?;
     let texts = roots.iter().map(|root| writer.take(*root, Level::Product)).collect();
     Ok((texts, writer.finish().0))

@@ -15,6 +15,7 @@ mod names;
 mod objects;
 pub mod oracle;
 mod places;
+pub mod povray;
 mod report;
 pub mod request;
 pub mod route;

@@ -115,7 +115,7 @@ pub struct Move<'a> {
 
 impl Move<'_> {
     /// The statement of a definition with its data files named as seen from the new folder: those that were read, and what stands as the
-    /// file of an INTERPOLATE.
+    /// file of a built-in.
     fn text(&self, definition: &Definition, sources: &SourceMap) -> String {
         let text = text(definition, sources);
         let own = sources.get(definition.statement.span.source).map(|source| PathBuf::from(&source.name));
@@ -123,7 +123,8 @@ impl Move<'_> {
         let tokens: Vec<Token> = Scanner::new(&text, 0, text.len()).collect();
         for (k, token) in tokens.iter().enumerate().filter(|(_, token)| token.kind == TokenKind::Text) {
             let words = text[token.start..token.end].trim_matches('"');
-            let is_file = k >= 4 && tokens[k - 4].is_word(&text, "INTERPOLATE");
+            let before = |back: usize, word: &str| k >= back && tokens[k - back].is_word(&text, word);
+            let is_file = before(4, "INTERPOLATE") || before(2, "MESH");
             let path = resolve(own.as_deref(), Path::new(words));
             let beside = self.folders.iter().map(|folder| folder.join(words));
             let Some(path) = [path].into_iter().chain(beside).find(|path| is_file || self.known.contains(path)) else {

@@ -139,3 +139,61 @@ pub enum Ternary {
     /// The p-norm `(|a|^c + |b|^c)^(1/c)`: \[H90\] eq. (1) and, for c < 0, (10); undefined if an operand is, or for c = 0
     Norm,
 }
+
+impl Unary {
+    /// Every one, but for whole powers, of which there is one for each number.
+    pub const ALL: &[Self] = &[
+        Self::Neg,
+        Self::Abs,
+        Self::Sqrt,
+        Self::Cbrt,
+        Self::Exp,
+        Self::Log,
+        Self::Log10,
+        Self::Sin,
+        Self::Cos,
+        Self::Tan,
+        Self::Asin,
+        Self::Acos,
+        Self::Atan,
+        Self::Sinh,
+        Self::Cosh,
+        Self::Tanh,
+        Self::Asinh,
+        Self::Acosh,
+        Self::Atanh,
+        Self::Floor,
+        Self::Ceil,
+        Self::Round,
+        Self::Sign,
+        Self::Not,
+    ];
+}
+
+impl Binary {
+    /// Every one.
+    pub const ALL: &[Self] = &[
+        Self::Add,
+        Self::Sub,
+        Self::Mul,
+        Self::Div,
+        Self::Min,
+        Self::Max,
+        Self::Pow,
+        Self::Atan2,
+        Self::Hypot,
+        Self::Mod,
+        Self::Less,
+        Self::LessEqual,
+        Self::Equal,
+        Self::NotEqual,
+        Self::And,
+        Self::Or,
+    ];
+}
+
+impl Ternary {
+    /// Every one.
+    pub const ALL: &[Self] =
+        &[Self::Select, Self::Union, Self::Intersection, Self::UnionSmooth, Self::IntersectionSmooth, Self::Norm];
+}

@@ -18,12 +18,18 @@ pub struct Lights {
     strength: f32,
 }
 
-const KEY: Light = [0.86, 0.83, 0.78];
-const FILL: Light = [0.13, 0.15, 0.19];
-const SKY: Light = [0.33, 0.36, 0.41];
-const GROUND: Light = [0.15, 0.135, 0.12];
-const GLEAM: f32 = 0.16;
-const GLEAM_EXPONENT: f64 = 36.0;
+/// The light of the key light.
+pub const KEY: Light = [0.86, 0.83, 0.78];
+/// The light of the fill light at its full strength.
+pub const FILL: Light = [0.13, 0.15, 0.19];
+/// The light from straight above.
+pub const SKY: Light = [0.33, 0.36, 0.41];
+/// The light from straight below.
+pub const GROUND: Light = [0.15, 0.135, 0.12];
+/// How bright the gleam is.
+pub const GLEAM: f32 = 0.16;
+/// How narrow the gleam is: the power of the cosine between the normal and halfway from the light to the eye.
+pub const GLEAM_EXPONENT: f64 = 36.0;
 /// What a face that cuts the object is tinted with.
 const CUT: [u8; 3] = [0xe9, 0xb8, 0x86];
 
@@ -50,6 +56,12 @@ impl Lights {
     #[must_use]
     pub fn key(&self) -> [f64; 3] {
         self.key
+    }
+
+    /// The direction to the fill light, a unit vector.
+    #[must_use]
+    pub fn fill(&self) -> [f64; 3] {
+        self.fill
     }
 
     /// The light that leaves an object of the colour `body` (linear) at a hit that the key light reaches by `lit` (0 to 1; asked with the

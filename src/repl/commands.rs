@@ -82,7 +82,7 @@ pub static TABLE: &[Command] = &[
     command("reset", "", "forget all definitions; :undo brings them back", Argument::None, asks::reset),
     command("load", "FILE", "run a program here", Argument::File, load),
     command("save", "FILE", "write all definitions as a program that runs", Argument::File, save),
-    command("mesh", "FILE [OPTION...]", "write a mesh: .stl .obj .ply .glb .3mf", Argument::FileAndOptions, mesh),
+    command("mesh", "FILE [OPTION...]", "write a mesh: .stl .obj .ply .glb .3mf .pov", Argument::FileAndOptions, mesh),
     command(
         "render",
         "FILE [OPTION...]",

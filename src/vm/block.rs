@@ -102,6 +102,12 @@ impl Kind for Doubles {
         leaf.value(arguments)
     }
 
+    fn leaf_block(leaf: &dyn Leaf, arguments: &[&Self::Block], out: &mut Self::Block, lanes: usize) {
+        let mut at: [&[f64]; 4] = [&[]; 4];
+        at.iter_mut().zip(arguments).for_each(|(to, from)| *to = &from.0[..lanes]);
+        leaf.values(&at[..arguments.len()], &mut out.0[..lanes]);
+    }
+
     fn region(program: &RegionProgram, store: &mut RegionStore<Self>, lanes: usize) {
         program.run(store, lanes);
     }

@@ -44,6 +44,15 @@ pub(crate) trait Kind: Sized {
 
     fn leaf(leaf: &dyn Leaf, arguments: &[Self::Item]) -> Self::Item;
 
+    /// A leaf at the first lanes of its arguments' blocks.
+    fn leaf_block(leaf: &dyn Leaf, arguments: &[&Self::Block], out: &mut Self::Block, lanes: usize) {
+        for i in 0..lanes {
+            let mut items = [Self::constant(0.0); 4];
+            items.iter_mut().zip(arguments).for_each(|(item, block)| *item = Self::get(block, i));
+            Self::set(out, i, Self::leaf(leaf, &items[..arguments.len()]));
+        }
+    }
+
     /// Runs operations on the first `lanes` lanes of the blocks, with the best instructions that there are.
     fn run_code(code: Code<'_>, store: &mut Store<Self>, lanes: usize, watch: &mut Self::Watch);
 
@@ -261,11 +270,8 @@ fn step<K: Kind>(leaves: &[SharedLeaf], op: &Op, operands: &Operands<'_, K>, out
         Op::Extreme(op, _, a, b) => binary::<K>(op, operands.of(a), operands.of(b), out, lanes),
         Op::Give(..) | Op::Region(..) | Op::Output(..) => debug_assert!(false, "regions run by themselves"),
         Op::Leaf(leaf, arity, arguments) => {
-            let leaf = &*leaves[leaf as usize].0;
-            for i in 0..lanes {
-                let items = arguments.map(|a| K::get(operands.of(a), i));
-                K::set(out, i, K::leaf(leaf, &items[..usize::from(arity)]));
-            }
+            let blocks = arguments.map(|a| operands.of(a));
+            K::leaf_block(&*leaves[leaf as usize].0, &blocks[..usize::from(arity)], out, lanes);
         }
     }
 }
@@ -354,6 +360,8 @@ fn join<K: Kind>(op: Ternary, a: &K::Block, b: &K::Block, number: f64, out: &mut
     );
 }
 
+#[cfg(test)]
+mod sets;
 #[cfg(test)]
 mod tests {
     use super::super::block::{Doubles, Points};

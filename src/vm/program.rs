@@ -144,6 +144,19 @@ impl Program {
         self.operations.len()
     }
 
+    /// What a value costs, in operations: data may take many.
+    #[must_use]
+    pub fn work(&self) -> usize {
+        if self.leaves.is_empty() {
+            return self.len();
+        }
+        let work = |op: &Op| match *op {
+            Op::Leaf(leaf, ..) => self.leaves[leaf as usize].0.work(),
+            _ => 1,
+        };
+        self.operations.iter().map(work).sum()
+    }
+
     /// Whether there is no operation: the value is one of the inputs.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -9,6 +9,8 @@ use yont::limits::Limits;
 use yont::number::{Algebra, Binary, Dual, Duals, Interval, Intervals, Leaf, Reals, Ternary, Unary};
 use yont::vm::{Boxes, Demand, Gradients, Points, Program, reference};
 
+use crate::number::UNARY;
+
 /// A small generator of random numbers (splitmix64).
 pub struct Random(pub u64);
 
@@ -57,66 +59,6 @@ impl Leaf for Product {
     }
 }
 
-const UNARY: &[Unary] = &[
-    Unary::Neg,
-    Unary::Abs,
-    Unary::Sqrt,
-    Unary::Cbrt,
-    Unary::Exp,
-    Unary::Log,
-    Unary::Log10,
-    Unary::Sin,
-    Unary::Cos,
-    Unary::Tan,
-    Unary::Asin,
-    Unary::Acos,
-    Unary::Atan,
-    Unary::Sinh,
-    Unary::Cosh,
-    Unary::Tanh,
-    Unary::Asinh,
-    Unary::Acosh,
-    Unary::Atanh,
-    Unary::Floor,
-    Unary::Ceil,
-    Unary::Round,
-    Unary::Sign,
-    Unary::Not,
-    Unary::Powi(2),
-    Unary::Powi(3),
-    Unary::Powi(-1),
-    Unary::Powi(-2),
-    Unary::Powi(7),
-    Unary::Powi(0),
-];
-/// Every primitive of two operands.
-pub(crate) const BINARY: &[Binary] = &[
-    Binary::Add,
-    Binary::Sub,
-    Binary::Mul,
-    Binary::Div,
-    Binary::Min,
-    Binary::Max,
-    Binary::Pow,
-    Binary::Atan2,
-    Binary::Hypot,
-    Binary::Mod,
-    Binary::Less,
-    Binary::LessEqual,
-    Binary::Equal,
-    Binary::NotEqual,
-    Binary::And,
-    Binary::Or,
-];
-/// Every primitive of three operands.
-pub(crate) const TERNARY: &[Ternary] = &[
-    Ternary::Select,
-    Ternary::Union,
-    Ternary::Intersection,
-    Ternary::UnionSmooth,
-    Ternary::IntersectionSmooth,
-    Ternary::Norm,
-];
 const NUMBERS: &[f64] = &[0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 3.0, -0.25, 1e-9, 7.5, f64::NAN, f64::INFINITY];
 const INPUTS: [Coordinate; 3] = [Coordinate(1), Coordinate(2), Coordinate(3)];
 
@@ -132,8 +74,8 @@ fn expression(random: &mut Random, graph: &mut Graph, size: usize) -> NodeId {
         };
         let (a, b, c) = (operand(random, graph), operand(random, graph), operand(random, graph));
         let made = match random.below(16) {
-            0..=3 => graph.unary(random.pick(UNARY), a),
-            4..=6 => graph.binary(random.pick(BINARY), a, b),
+            0..=3 => graph.unary(random.pick(&UNARY), a),
+            4..=6 => graph.binary(random.pick(Binary::ALL), a, b),
             7..=9 => graph.binary(random.pick(&[Binary::Min, Binary::Max, Binary::Add, Binary::Sub]), a, b),
             10 | 11 => graph.unary(Unary::Neg, a),
             12 if random.below(4) == 0 => graph.leaf(SharedLeaf(Arc::new(Product)), &[a, b]),
@@ -143,7 +85,12 @@ fn expression(random: &mut Random, graph: &mut Graph, size: usize) -> NodeId {
                 let numbers = if smooth { &[0.0, 1.0, 2.0] } else { &[0.0, 0.5, 1.0] };
                 let parameter = graph.constant(random.pick(numbers));
                 let parameter = if random.below(8) == 0 && !smooth { c } else { parameter };
-                graph.ternary(random.pick(if smooth { &TERNARY[3..] } else { &TERNARY[1..3] }), a, b, parameter)
+                graph.ternary(
+                    random.pick(if smooth { &Ternary::ALL[3..] } else { &Ternary::ALL[1..3] }),
+                    a,
+                    b,
+                    parameter,
+                )
             }
             _ => graph.map(a, &[(random.pick(&INPUTS), b), (random.pick(&INPUTS), c)]),
         };
@@ -420,13 +367,13 @@ fn every_operation_in_every_form_equals_the_walk() {
             }
         }
     };
-    for op in UNARY {
+    for op in UNARY.iter() {
         all(&|graph, [a, ..]| graph.unary(*op, a));
     }
-    for op in BINARY {
+    for op in Binary::ALL {
         all(&|graph, [a, b, _]| graph.binary(*op, a, b));
     }
-    for op in TERNARY {
+    for op in Ternary::ALL {
         all(&|graph, [a, b, c]| graph.ternary(*op, a, b, c));
     }
 }

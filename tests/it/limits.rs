@@ -286,3 +286,20 @@ fn a_space_is_sought_with_so_much_work() {
     assert!(enough > 100 && proves(enough), "{enough}");
     assert_eq!(code(enough - 1), "space-guessed");
 }
+
+#[test]
+fn an_object_of_n_operations_is_a_formula_of_pov_ray_and_one_of_n_plus_1_is_a_mesh() {
+    // Three squares, their sum and a difference.
+    let program = format!("gob_a = 1 - (x1**2 + x2**2 + x3**2); {SPACE}");
+    for (limit, is_formula) in [(6, true), (5, false)] {
+        let mut session = defined(Limits { pov_operations: limit, ..Limits::default() }, &program);
+        let output = Output::parse("-", Some(request::Format::Pov)).expect("a format");
+        let mut options = Options::default();
+        options.view.cells = Cells::Along(8);
+        let mut bytes = Vec::new();
+        request::write(&mut session, &output, &options, &mut bytes).expect("a scene");
+        let text = String::from_utf8(bytes).expect("text");
+        assert_eq!(text.contains("isosurface {"), is_formula, "{limit}");
+        assert_eq!(text.contains(&format!("its 6 operations are more than {limit}")), !is_formula, "{limit}");
+    }
+}

@@ -238,6 +238,33 @@ fn damaged_raw_files() {
 }
 
 #[test]
+fn damaged_meshes() {
+    let plain = "# a cube and a corner of it\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0 1\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nusemtl a\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2/1 3/1 7/1 6/1\nf 3//2 4//2 8//2 7//2\nf -8 -4 -1 -5\n";
+    let surface = yont::data::obj::read(plain.as_bytes()).expect("a cube");
+    let corners: Vec<[f64; 3]> = surface.triangles.iter().flatten().map(|v| surface.positions[*v as usize]).collect();
+    let mut text = String::from("solid cube\n");
+    let mut binary = [&[0; 80][..], &(corners.len() as u32 / 3).to_le_bytes()].concat();
+    for three in corners.chunks(3) {
+        text += "facet normal 0 0 0\n outer loop\n";
+        binary.extend([0; 12]);
+        for [x, y, z] in three {
+            text += &format!("  vertex {x} {y} {z}\n");
+            [x, y, z].iter().for_each(|c| binary.extend((**c as f32).to_le_bytes()));
+        }
+        text += " endloop\nendfacet\n";
+        binary.extend([0; 2]);
+    }
+    text += "endsolid cube\n";
+    let seeds: [(&str, &[u8]); 3] = [("a.obj", plain.as_bytes()), ("a.stl", text.as_bytes()), ("a.stl", &binary)];
+    run("meshes", cases(400), |random| {
+        let (name, bytes) = seeds[random.below(3)];
+        let program = format!("gob_a = MESH(\"{name}\") | 0.3 - ABS(x1 - 2) - ABS(x2) - ABS(x3);");
+        let output = ["a.stl", "a.png", "a.nrrd"][random.below(3)];
+        Trial { files: vec![(format!("examples/{name}"), damaged(random, bytes))], program, output }
+    });
+}
+
+#[test]
 fn damaged_programs() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let read = |folder: &Path| -> Vec<String> {

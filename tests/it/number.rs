@@ -5,45 +5,15 @@ mod functions;
 mod intervals;
 mod rfunctions;
 
+use std::sync::LazyLock;
+
 use yont::number::Unary;
 
-use crate::conformance::{BINARY, TERNARY};
-
-/// Every primitive of one operand.
-const UNARY: &[Unary] = &[
-    Unary::Neg,
-    Unary::Abs,
-    Unary::Sqrt,
-    Unary::Cbrt,
-    Unary::Exp,
-    Unary::Log,
-    Unary::Log10,
-    Unary::Sin,
-    Unary::Cos,
-    Unary::Tan,
-    Unary::Asin,
-    Unary::Acos,
-    Unary::Atan,
-    Unary::Sinh,
-    Unary::Cosh,
-    Unary::Tanh,
-    Unary::Asinh,
-    Unary::Acosh,
-    Unary::Atanh,
-    Unary::Floor,
-    Unary::Ceil,
-    Unary::Round,
-    Unary::Sign,
-    Unary::Not,
-    Unary::Powi(-3),
-    Unary::Powi(-2),
-    Unary::Powi(-1),
-    Unary::Powi(0),
-    Unary::Powi(1),
-    Unary::Powi(2),
-    Unary::Powi(3),
-    Unary::Powi(10),
-];
+/// Every primitive of one operand, with some of the whole powers.
+pub(crate) static UNARY: LazyLock<Vec<Unary>> = LazyLock::new(|| {
+    let powers = [-3, -2, -1, 0, 1, 2, 3, 7, 10].map(Unary::Powi);
+    Unary::ALL.iter().copied().chain(powers).collect()
+});
 
 /// A small random sequence (splitmix64), the same every time.
 struct Random(u64);

@@ -3,6 +3,8 @@
 
 #[path = "readback/files.rs"]
 pub mod files;
+#[path = "readback/pov.rs"]
+pub mod pov;
 
 use std::collections::BTreeSet;
 
@@ -167,6 +169,11 @@ fn compare(name: &str, format: Format, bytes: &[u8], subject: &Subject, session:
         Format::Ply => files::ply(bytes),
         Format::Glb => files::glb(bytes),
         Format::ThreeMf => files::threemf(bytes),
+        Format::Pov => {
+            let scene = pov::read(bytes);
+            compare_functions(&what, &scene, subject, session);
+            scene.read
+        }
         Format::Svg => return compare_outlines(&what, bytes, subject, session),
         Format::Nrrd => return compare_samples(&what, bytes, subject, session),
         Format::Png => return pictures(&what, files::png(bytes), 1, subject),
@@ -175,6 +182,58 @@ fn compare(name: &str, format: Format, bytes: &[u8], subject: &Subject, session:
     };
     let precision = if format == Format::Obj { 1e-12 } else { SINGLE };
     compare_meshes(&what, &read, &expected(subject, session, format), precision);
+}
+
+/// A number from -1 to 1 that comes of two whole ones.
+fn shuffled(seed: u64, n: u64) -> f64 {
+    let mut x = (seed << 32 | n).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    ((x ^ (x >> 32)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+/// The functions of a scene of one object against its function, and against the slope that they are said to have.
+pub fn compare_functions(what: &str, scene: &pov::Scene, subject: &Subject, session: &mut Session) {
+    for (_, isosurface) in &scene.isosurfaces {
+        let bounds = subject.bounds();
+        assert_eq!([isosurface.lo, isosurface.hi], [0, 1].map(|end| [0, 1, 2].map(|k| bounds[k][end])), "{what}");
+        let place = |n: u64| -> [f64; 3] {
+            std::array::from_fn(|k| {
+                let [lo, hi] = bounds[k];
+                0.5 * (lo + hi) + 0.5 * (hi - lo) * shuffled(k as u64, n)
+            })
+        };
+        let places: Vec<[f64; 3]> = (0..400).map(place).collect();
+        let mut options = options();
+        options.view.at = subject.fixed.clone();
+        options.view.at.extend(subject.time.iter().map(|time| (time.coordinate, subject.moments()[0])));
+        options.view.object = Some(subject.name.to_string());
+        let highest = subject.axes.iter().map(|axis| usize::from(axis.coordinate.0)).max().unwrap_or(0);
+        let point = |at: &[f64; 3]| {
+            let mut point = vec![0.0; highest];
+            subject.axes.iter().zip(at).for_each(|(axis, &c)| point[usize::from(axis.coordinate.0) - 1] = c);
+            point
+        };
+        let points: Vec<Vec<f64>> = places.iter().map(point).collect();
+        let values = request::sample(session, &options.view, &points, false).expect("values");
+        let size = values.iter().map(|v| v.value.abs()).filter(|v| v.is_finite()).fold(0.0, f64::max);
+        let longest = bounds.iter().map(|[lo, hi]| hi - lo).fold(0.0, f64::max);
+        let mut cut = None;
+        for (n, (at, value)) in places.iter().zip(&values).enumerate() {
+            let (is, must) = (scene.value(isosurface, *at), -value.value);
+            // What is far from the boundary may be cut off, with its sign, at one value.
+            let close = (is - must).abs() <= 1e-12 * size;
+            if !close && is.abs() < must.abs() && is * must > 0.0 {
+                assert_eq!(*cut.get_or_insert(is.abs()), is.abs(), "{what}: cut off at {at:?}");
+            } else {
+                assert!(close, "{what}: {is}, not {must} at {at:?}");
+            }
+            let step: [f64; 3] = std::array::from_fn(|k| 1e-4 * longest * shuffled(3 + k as u64, n as u64));
+            let length = step.iter().map(|c| c * c).sum::<f64>().sqrt();
+            let other = std::array::from_fn(|k| (at[k] + step[k]).clamp(isosurface.lo[k], isosurface.hi[k]));
+            let slope = (scene.value(isosurface, other) - is).abs() / length;
+            assert!(slope <= isosurface.max_gradient * (1.0 + 1e-6), "{what}: as steep as {slope} at {at:?}");
+        }
+    }
 }
 
 /// Frames of one size, which is the asked one for one picture without a legend, and none of which is empty.
@@ -240,6 +299,7 @@ fn coloured(script: &str, format: Format) -> Read {
         Format::Obj => files::obj(&bytes),
         Format::Ply => files::ply(&bytes),
         Format::Glb => files::glb(&bytes),
+        Format::Pov => pov::read(&bytes).read,
         _ => files::threemf(&bytes),
     }
 }

@@ -19,8 +19,7 @@ use crate::session::messages;
 
 /// The value of an expression as a user sees it.
 fn value(source: &str) -> String {
-    let (name, ramp) = builtins::RAMP;
-    let host = Memory::with(&[(name, ramp.as_bytes())]);
+    let host = Memory::with(builtins::FILES);
     let mut session = Session::new(Arc::new(host), Limits::default(), Interrupt::default());
     let outcome = session.input("example", &format!("{source};"), Mode::Script);
     match outcome.events.as_slice() {

@@ -1,8 +1,7 @@
-//! Meshes of both sides, how far their vertices are from the surface, and how time and memory grow with the resolution.
+//! Meshes of both sides, and how far their vertices are from the surface.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::time::Instant;
 
 use fidget::eval::MathFunction;
 use fidget::jit::JitFunction;
@@ -22,11 +21,12 @@ use crate::table::{Runner, compare};
 use crate::works::{BUDGET, bound, keep};
 
 /// A mesh without normals, as those of the peers are.
-fn bare(shape: &Shape, grid: &Grid) -> Mesh {
+pub fn bare(shape: &Shape, grid: &Grid) -> Mesh {
     extract_bare(shape, grid, &Limits::default(), &Interrupt::default()).expect("a mesh").mesh
 }
 
-fn shaded(shape: &Shape, grid: &Grid) -> Mesh {
+/// A mesh with normals.
+pub fn shaded(shape: &Shape, grid: &Grid) -> Mesh {
     extract(shape, grid, &Limits::default(), &Interrupt::default()).expect("a mesh").mesh
 }
 
@@ -141,68 +141,4 @@ pub fn beside_python(cells: usize) {
         ));
     }
     compare(&name, &mut runners, 3, BUDGET);
-}
-
-/// Time and memory of the gyroid ball by the number of cells along a side, and the exponents of both.
-pub fn sizes() {
-    let mut all = Vec::new();
-    println!("\n| gyroid ball, cells along a side | triangles | ms (median) | checked, ms | peak memory, MiB |");
-    println!("|---|---|---|---|---|");
-    for cells in [64, 96, 128, 192, 256, 384, 512] {
-        let grid = Grid::new(&[[-1.0, 1.0]; 3], cells).expect("a grid");
-        let shape = Object::of(GYROID).shape(3, Demand::Sign);
-        let mut triangles = 0;
-        let time = median(|| {
-            triangles = bare(&shape, &grid).triangles.len();
-        });
-        let mesh = bare(&shape, &grid);
-        let checked = median(|| keep(check(&mesh).expect("closed")));
-        drop(mesh);
-        let memory = peak(cells);
-        println!("| {cells} | {triangles} | {:.2} | {:.2} | {memory:.0} |", time * 1e3, checked * 1e3);
-        all.push((cells as f64, time, memory));
-    }
-    let time = exponent(all.iter().map(|&(n, time, _)| (n, time)));
-    let memory = exponent(all.iter().map(|&(n, _, memory)| (n, memory)));
-    println!("\nTime grows like cells^{time:.2}, memory like cells^{memory:.2}; the surface grows like cells^2.");
-}
-
-/// The median of some runs, in seconds.
-fn median(mut run: impl FnMut()) -> f64 {
-    let mut times = Vec::new();
-    while times.len() < 3 || (times.len() < 15 && times.iter().sum::<f64>() < 2.0) {
-        let start = Instant::now();
-        run();
-        times.push(start.elapsed().as_secs_f64());
-    }
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
-}
-
-/// The slope of the logarithms.
-fn exponent(points: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let points: Vec<(f64, f64)> = points.map(|(n, t)| (n.ln(), t.ln())).collect();
-    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
-    let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
-    let up: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
-    up / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>()
-}
-
-/// MiB that a process of its own takes at most for a mesh with normals, its check and its STL file, which goes nowhere.
-fn peak(cells: usize) -> f64 {
-    let own = std::env::current_exe().expect("this program");
-    let output = Command::new(own).args(["--peak", &cells.to_string()]).output().expect("a process");
-    String::from_utf8_lossy(&output.stdout).trim().parse().unwrap_or(f64::NAN)
-}
-
-/// What [`peak`] runs: prints MiB.
-pub fn print_peak(cells: usize) {
-    let grid = Grid::new(&[[-1.0, 1.0]; 3], cells).expect("a grid");
-    let mesh = shaded(&Object::of(GYROID).shape(3, Demand::Sign), &grid);
-    check(&mesh).expect("closed");
-    yont::export::stl::write(&yont::export::Part::of("a", &mesh), &mut std::io::sink()).expect("a sink takes all");
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    let kilobytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
-    println!("{}", kilobytes.unwrap_or(f64::NAN) / 1024.0);
 }

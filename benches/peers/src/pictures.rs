@@ -1,23 +1,22 @@
-//! Height maps, the picture that POV-Ray makes too, loading, and time against size. Each checks what it can before it is timed.
+//! Height maps, the picture that POV-Ray makes too, and loading. Each checks what it can before it is timed.
 
 use std::process::Command;
 use std::time::{Duration, Instant};
 
 use fidget::jit::JitFunction;
-use fidget::raster::{pixel, voxel};
+use fidget::raster::voxel;
 use fidget::render::CancelToken;
 use fidget::shape::BoundShape;
 use fidget::vm::VmFunction;
 use yont::interrupt::Interrupt;
-use yont::picture::plot::{Fill, Window, plot};
 use yont::picture::raycast::{Space, Style, framed, raycast};
 use yont::picture::rays::{Hit, Scene, heights as cast};
-use yont::picture::{Camera, Palette, View, extent::Extent};
+use yont::picture::{Camera, View, extent::Extent};
 use yont::vm::{Demand, Shape};
 
 use crate::ours::{GYROID, Object, program, spheres};
 use crate::peer::Expression;
-use crate::table::{Runner, compare, exponent, time};
+use crate::table::{Runner, compare, time};
 use crate::works::{BUDGET, bound, keep, list};
 
 /// Cells along each side of a height map, and voxels along a column.
@@ -26,7 +25,8 @@ const SIDE: usize = 256;
 /// How long the peer may take for one height map; it takes minutes for some.
 const CAP: Duration = Duration::from_secs(300);
 
-fn ours(shape: &Shape) -> Vec<Option<Hit>> {
+/// Our height map.
+pub fn ours(shape: &Shape) -> Vec<Option<Hit>> {
     let camera = Camera {
         eye: [0.0, 0.0, 1.0],
         right: [1.0, 0.0, 0.0],
@@ -41,7 +41,7 @@ fn ours(shape: &Shape) -> Vec<Option<Hit>> {
 }
 
 /// The map and whether it came before the cap.
-fn theirs<F: fidget::eval::Function + fidget::render::RenderHints>(
+pub fn theirs<F: fidget::eval::Function + fidget::render::RenderHints>(
     shape: BoundShape<'static, F, f32>,
 ) -> Option<voxel::Image> {
     // Fidget looks at the corners of voxels, Yont at their middles.
@@ -168,68 +168,4 @@ pub fn load() {
     println!("| prospero, {lines} lines | Yont, parse and resolve | | {:.1} | | |", parse * 1e3);
     println!("| prospero, {lines} lines | Yont, compile | | {:.1} | | |", compile * 1e3);
     println!("| prospero, {lines} lines | Yont, all | | {:.1} | 1.0 | |", (parse + compile) * 1e3);
-}
-
-/// Sizes and times of one side; the fitted exponent.
-fn table(head: &str, columns: &[&str], rows: &[(f64, Vec<Option<f64>>)]) {
-    println!("\n| {head} | {} |", columns.join(" | "));
-    println!("|---{}|", "|---".repeat(columns.len()));
-    for (size, times) in rows {
-        let cells: Vec<String> =
-            times.iter().map(|t| t.map_or_else(|| "-".into(), |t| format!("{:.2}", t * 1e3))).collect();
-        println!("| {size} | {} |", cells.join(" | "));
-    }
-    let fitted = |column: usize| {
-        let points: Vec<(f64, f64)> = rows.iter().filter_map(|(size, times)| Some((*size, times[column]?))).collect();
-        format!("{:.2}", exponent(&points))
-    };
-    println!("| exponent | {} |\n", (0..columns.len()).map(fitted).collect::<Vec<_>>().join(" | "));
-}
-
-const WINDOW: Window = Window { lo: [-1.0; 2], hi: [1.0; 2] };
-
-fn paint(shape: &Shape, side: usize) {
-    keep(plot(shape, WINDOW, [side; 2], Fill::of(Palette::Mono), &Interrupt::default()));
-}
-
-/// Pictures of prospero, 256 to 8192 pixels wide.
-pub fn sizes_prospero() {
-    let Some(list) = list("prospero") else { return };
-    let shape = Object::of(&program(&list)).shape(2, Demand::Sign);
-    let peer = Expression::read(&list);
-    let jit = bound::<JitFunction>(&peer);
-    let row = |side: usize| {
-        let own = time(BUDGET, || paint(&shape, side));
-        let config = pixel::RenderConfig::from_size((side as u32).into());
-        (side as f64, vec![Some(own), Some(time(BUDGET, || keep(config.run(jit.clone()))))])
-    };
-    let rows: Vec<_> = [256, 512, 1024, 2048, 4096, 8192].map(row).into();
-    table("prospero, pixels along a side", &["Yont, ms", "Fidget, JIT, ms"], &rows);
-}
-
-/// Sections and height maps of 100 to 100,000 spheres; the peer has `max` written by hand and compiles anew each time, as the operations
-/// of as many spheres are not the same.
-pub fn sizes_spheres() {
-    let row = |count: usize| {
-        let text = spheres(count, 0);
-        let solid = Object::of(&text);
-        let flat = Object::of(&format!("{text}gob_section = gob_s AT (x3 = 0);"));
-        let compile = time(Duration::ZERO, || keep(solid.shape(3, Demand::Sign)));
-        let (section, shape) = (flat.shape(2, Demand::Sign), solid.shape(3, Demand::Sign));
-        let times = [time(BUDGET, || paint(&section, 1024)), time(BUDGET, || keep(ours(&shape)))];
-        let peer = (count <= 10_000).then(|| {
-            let object = Object::of(&spheres(count, 1));
-            let shape = bound::<VmFunction>(&Expression::of(object.graph(), object.root));
-            time(BUDGET, || keep(theirs(shape.clone())))
-        });
-        (count as f64, vec![Some(compile), Some(times[0]), Some(times[1]), peer])
-    };
-    let rows: Vec<_> = [100, 1_000, 10_000, 100_000].map(row).into();
-    let columns = [
-        "Yont, compile, ms",
-        "Yont, section 1024, ms",
-        "Yont, height map 256, ms",
-        "Fidget, VM, max, height map 256, ms",
-    ];
-    table("spheres", &columns, &rows);
 }

@@ -6,12 +6,13 @@ use std::time::Duration;
 
 use fidget::eval::{BulkEvaluator, Function, MathFunction};
 use fidget::jit::JitFunction;
+use fidget::raster::effects::to_rgba_bitmap;
 use fidget::raster::pixel;
+use fidget::render::ThreadPool;
 use fidget::shape::{BoundShape, EzShape, Shape as Form, ShapeBulkEval};
 use fidget::vm::VmFunction;
 use rayon::prelude::*;
 use yont::interrupt::Interrupt;
-use yont::limits::Limits;
 use yont::picture::plot::{Fill, Window, inside, plot};
 use yont::vm::block::Scalar;
 use yont::vm::{Demand, Points, Program, Shape};
@@ -32,15 +33,12 @@ pub const WORKS: &[(&str, fn())] = &[
     ("spheres-max-heights", || pictures::heights("10,000 spheres, max, height map 256", 1)),
     ("gyroid-picture", pictures::gyroid),
     ("load", pictures::load),
-    ("sizes-prospero", pictures::sizes_prospero),
-    ("sizes-spheres", pictures::sizes_spheres),
     ("gyroid-128", || beside_fidget("gyroid ball, mesh 128", &Object::of(GYROID), 1.0, 7)),
     ("gyroid-256", || beside_fidget("gyroid ball, mesh 256", &Object::of(GYROID), 1.0, 8)),
     ("bear", || model_mesh("bear", 1.0)),
     ("colonnade", || model_mesh("colonnade", 1.0)),
     ("tanglecube", || model_mesh("tanglecube", 4.5)),
     ("python-gyroid", || meshes::beside_python(256)),
-    ("sizes-gyroid", meshes::sizes),
     ("dense-gyroid", || dense("gyroid ball, dense 256", &Object::of(GYROID))),
     ("dense-bear", || {
         if let Some(list) = list("bear") {
@@ -101,12 +99,31 @@ fn picture(name: &str, object: &Object, peer: &Expression, side: usize) {
         &mut [
             Runner::new("Yont, double", || object.shape(2, Demand::Sign), |s| keep(paint(s))),
             Runner::new("Yont, double, a byte a pixel", || object.shape(2, Demand::Sign), |s| keep(mask(s))),
-            Runner::new("Fidget, VM, single", || bound::<VmFunction>(peer), |b| keep(config.run(b.clone()))),
-            Runner::new("Fidget, JIT, single", || bound::<JitFunction>(peer), |b| keep(config.run(b.clone()))),
+            Runner::new("Fidget, VM, single", || bound::<VmFunction>(peer), |b| keep(coloured(config.run(b.clone())))),
+            Runner::new(
+                "Fidget, JIT, single",
+                || bound::<JitFunction>(peer),
+                |b| keep(coloured(config.run(b.clone()))),
+            ),
+            Runner::new(
+                "Fidget, VM, single, its own pixels",
+                || bound::<VmFunction>(peer),
+                |b| keep(config.run(b.clone())),
+            ),
+            Runner::new(
+                "Fidget, JIT, single, its own pixels",
+                || bound::<JitFunction>(peer),
+                |b| keep(config.run(b.clone())),
+            ),
         ],
         5,
         BUDGET,
     );
+}
+
+/// What Fidget makes of its pixels for a file: black and white.
+fn coloured(seen: pixel::Image) -> fidget::raster::Image<[u8; 4]> {
+    to_rgba_bitmap(seen, false, Some(&ThreadPool::Global))
 }
 
 /// A shape of Fidget without variables.

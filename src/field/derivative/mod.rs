@@ -511,8 +511,7 @@ impl Leaf for LeafSlope {
         self.value(at)
     }
 
-    /// Data says nothing about its slopes over a box, so they may be anything.
-    fn bounds(&self, _over: &[Interval]) -> Interval {
-        Interval { lo: f64::NEG_INFINITY, hi: f64::INFINITY, undefined: true }
+    fn bounds(&self, over: &[Interval]) -> Interval {
+        self.of.0.slope_bounds(self.axis, over)
     }
 }

@@ -57,7 +57,7 @@ impl Part {
     }
 }
 
-/// The words for a leaf: the first two arguments of INTERPOLATE.
+/// The words for a leaf: its call as far as the file.
 type Leaves<'a> = Box<dyn Fn(&SharedLeaf) -> Option<String> + 'a>;
 
 /// Writes nodes in ascending order.
@@ -140,7 +140,7 @@ impl<'a> Writer<'a> {
             Node::Ternary(op, [a, b, c]) => self.ternary(*op, *a, *b, *c),
             Node::Leaf(leaf, arguments) => {
                 let words = (self.leaves)(leaf).ok_or("it holds data without a file")?;
-                self.call(&format!("INTERPOLATE({words}, "), arguments)
+                self.call(&format!("{words}, "), arguments)
             }
             Node::Map(body, mapping) => self.map(*body, mapping),
             Node::Region(..) => return Err("a part of it searches or runs a loop at each point".into()),

@@ -1,4 +1,4 @@
-//! Data as functions: INTERPOLATE reads its file through the host and makes a leaf of it.
+//! Data as functions: INTERPOLATE and MESH read their files through the host and make leaves of them.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,26 +7,49 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use crate::builtins::Builtin;
+use crate::data::mesh::{self, MeshError};
 use crate::data::{self, DataError, Interpolation};
 use crate::diagnostic::{Category, Diagnostic};
-use crate::field::SharedLeaf;
+use crate::field::{Coordinate, SharedLeaf};
 use crate::number::Leaf;
 use crate::source::Span;
 use crate::syntax::tree::Expr;
 
+use super::super::errors;
 use super::super::value::Value;
 use super::{Lower, Lowered};
+
+/// What a file is read as.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum As {
+    /// A volume with a kind of interpolation.
+    Volume(String),
+    Mesh,
+}
+
+/// A file as a function, and what there is to tell of it: code, title and help.
+#[derive(Clone, Debug)]
+struct Read {
+    leaf: Arc<dyn Leaf>,
+    told: Vec<(&'static str, String, &'static str)>,
+}
 
 /// The leaves made so far, by file and kind, so that a file is read once in a session.
 #[derive(Debug, Default)]
 pub struct Files {
-    leaves: FxHashMap<(PathBuf, String), Arc<dyn Leaf>>,
+    leaves: FxHashMap<(PathBuf, As), Read>,
 }
 
 impl Files {
-    /// What was read: the fingerprint of each leaf, its file and its kind of interpolation.
+    /// What was read: the fingerprint of each leaf, its file, and what stands in front of the file in a call.
     pub fn known(&self) -> impl Iterator<Item = (u128, PathBuf, String)> {
-        self.leaves.iter().map(|((path, kind), leaf)| (leaf.fingerprint(), path.clone(), kind.clone()))
+        self.leaves.iter().map(|((path, read_as), read)| {
+            let call = match read_as {
+                As::Volume(kind) => format!("INTERPOLATE(\"{kind}\", "),
+                As::Mesh => "MESH(".to_owned(),
+            };
+            (read.leaf.fingerprint(), path.clone(), call)
+        })
     }
 
     /// Forgets what was read, so that changed files are read again.
@@ -39,7 +62,12 @@ impl Lower<'_> {
     pub(super) fn interpolate(&mut self, builtin: &Builtin, arguments: &[Expr], span: Span) -> Lowered<Value> {
         let kind = self.text(&arguments[0], "the kind of interpolation")?;
         let file = self.text(&arguments[1], "the file of INTERPOLATE")?;
-        let leaf = self.volume(&kind, &file, &arguments[0], &arguments[1])?;
+        let known = interpolation(&kind, arguments[0].span)?;
+        let (at, also) = (arguments[1].span, Some(arguments[0].span));
+        let leaf = self.read(&file, As::Volume(kind.to_ascii_lowercase()), at, also, |lower, path, bytes| {
+            let leaf = lower.decode(known, path, bytes, at)?;
+            Ok(Read { leaf, told: Vec::new() })
+        })?;
         let given = arguments.len() - 2;
         if leaf.arity() != given {
             let title = format!("`{file}` has {} axes, and {given} coordinates are given", leaf.arity());
@@ -48,30 +76,66 @@ impl Lower<'_> {
                 .help(format!("one expression per axis: {}", builtin.signature()))
                 .into());
         }
-        let mut nodes = Vec::with_capacity(given);
-        for e in &arguments[2..] {
-            nodes.push(self.scalar(e, "a coordinate of INTERPOLATE")?.node(self.graph));
+        self.leaf_at(leaf, &arguments[2..], "a coordinate of INTERPOLATE")
+    }
+
+    /// A leaf at expressions.
+    fn leaf_at(&mut self, leaf: Arc<dyn Leaf>, at: &[Expr], what: &str) -> Lowered<Value> {
+        let mut nodes = Vec::with_capacity(at.len());
+        for e in at {
+            nodes.push(self.scalar(e, what)?.node(self.graph));
         }
         let id = self.graph.leaf(SharedLeaf(leaf), &nodes);
         Ok(Value::Scalar(self.wrap(id)))
     }
 
-    fn volume(&mut self, kind: &str, file: &str, kind_at: &Expr, file_at: &Expr) -> Lowered<Arc<dyn Leaf>> {
-        let known = interpolation(kind, kind_at.span)?;
-        let from = self.world.sources.get(file_at.span.source).map(|s| PathBuf::from(&s.name));
-        let path = crate::host::resolve(from.as_deref(), Path::new(file));
-        let key = (path, kind.to_ascii_lowercase());
-        if let Some(leaf) = self.files.leaves.get(&key) {
-            return Ok(leaf.clone());
+    /// `MESH(file)`, `MESH(file, e1, e2, e3)`
+    pub(super) fn mesh(&mut self, builtin: &Builtin, arguments: &[Expr], span: Span) -> Lowered<Value> {
+        if ![1, 4].contains(&arguments.len()) {
+            return Err(errors::wrong_builtin_count(builtin, arguments.len(), span).into());
         }
-        let bytes = self
-            .world
-            .host
-            .read(&key.0, self.world.limits.data_bytes)
-            .map_err(|e| e.diagnostic().at(file_at.span, "").see(kind_at.span, ""))?;
-        let leaf = self.decode(known, &key.0, &bytes, file_at.span)?;
-        self.files.leaves.insert(key, leaf.clone());
-        Ok(leaf)
+        let file = self.text(&arguments[0], "the file of MESH")?;
+        let at = arguments[0].span;
+        let leaf = self.read(&file, As::Mesh, at, None, |lower, path, bytes| {
+            let context = data::Context { limits: lower.world.limits, interrupt: lower.world.interrupt };
+            let (leaf, noted) = mesh::decode(&path.display().to_string(), bytes, context).map_err(|e| match e {
+                MeshError::Cancelled => super::Fault::Cancelled,
+                e => bad_file("bad-mesh", path, &e.to_string(), e.help(), at).into(),
+            })?;
+            Ok(Read { leaf, told: told(path, &noted) })
+        })?;
+        if arguments.len() > 1 {
+            return self.leaf_at(leaf, &arguments[1..], "a coordinate of MESH");
+        }
+        let place = [1, 2, 3].map(|c| self.graph.coordinate(Coordinate(c)));
+        let id = self.graph.leaf(SharedLeaf(leaf), &place);
+        Ok(Value::Scalar(self.wrap(id)))
+    }
+
+    /// The function that a file makes, which `make` makes if it is not known; what there is to tell is told each time.
+    fn read(
+        &mut self,
+        file: &str,
+        read_as: As,
+        at: Span,
+        also: Option<Span>,
+        make: impl FnOnce(&Self, &Path, &[u8]) -> Lowered<Read>,
+    ) -> Lowered<Arc<dyn Leaf>> {
+        let from = self.world.sources.get(at.source).map(|s| PathBuf::from(&s.name));
+        let key = (crate::host::resolve(from.as_deref(), Path::new(file)), read_as);
+        if !self.files.leaves.contains_key(&key) {
+            let bytes = self.world.host.read(&key.0, self.world.limits.data_bytes).map_err(|e| {
+                let told = e.diagnostic().at(at, "");
+                also.map_or(told.clone(), |span| told.see(span, ""))
+            })?;
+            let read = make(self, &key.0, &bytes)?;
+            self.files.leaves.insert(key.clone(), read);
+        }
+        let read = &self.files.leaves[&key];
+        for (code, title, help) in &read.told {
+            self.warnings.push(Diagnostic::warning(code, title).at(at, "").help(*help));
+        }
+        Ok(read.leaf.clone())
     }
 
     fn decode(&self, kind: Interpolation, path: &Path, bytes: &[u8], file_at: Span) -> Lowered<Arc<dyn Leaf>> {
@@ -85,13 +149,47 @@ impl Lower<'_> {
             .and_then(|volume| Arc::new(volume).leaf(kind));
         leaf.map_err(|error| match error {
             DataError::Cancelled => super::Fault::Cancelled,
-            error => Diagnostic::error("bad-data", format!("`{}`: {error}", path.display()))
-                .category(Category::File)
-                .at(file_at, "")
-                .help(error.help())
-                .into(),
+            error => bad_file("bad-data", path, &error.to_string(), error.help(), file_at).into(),
         })
     }
+}
+
+fn bad_file(code: &'static str, path: &Path, what: &str, help: String, at: Span) -> Diagnostic {
+    let title = format!("`{}`: {what}", path.display());
+    Diagnostic::error(code, title).category(Category::File).at(at, "").help(help)
+}
+
+/// What there is to tell of a mesh that is good enough.
+fn told(path: &Path, noted: &mesh::Noted) -> Vec<(&'static str, String, &'static str)> {
+    let path = path.display();
+    let mended = noted.mended;
+    let counted = |n: usize, one: &str, many: &str| match n {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        n => Some(format!("{n} {many}")),
+    };
+    let parts = [
+        counted(mended.joined, "double vertex joined", "double vertices joined"),
+        counted(mended.filled, "small hole filled", "small holes filled"),
+        counted(mended.turned, "triangle turned round", "triangles turned round"),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    let mut all = Vec::new();
+    if !parts.is_empty() {
+        let title = format!("`{path}` was mended to be closed: {}", parts.join(", "));
+        all.push(("mended-mesh", title, "if that is not what was meant, mend it in the program that it comes from"));
+    }
+    if let Some((count, at)) = &noted.crossings {
+        let pairs = if *count == 1 {
+            "a pair of triangles crosses".into()
+        } else {
+            format!("{count} pairs of triangles cross")
+        };
+        let title = format!("`{path}` goes through itself: {pairs}, one near {at}");
+        let help = "inside is what the mesh goes round; there, values are the distance to the nearest triangle, also of those within";
+        all.push(("crossing-mesh", title, help));
+    }
+    all
 }
 
 fn interpolation(kind: &str, place: Span) -> Lowered<Interpolation> {

@@ -10,12 +10,11 @@ use crate::picture::legend::Telling;
 use crate::picture::paint::Paint;
 use crate::picture::palette::Palette;
 use crate::surface::check::{Topology, check};
-use crate::surface::contour::outlines;
 use crate::surface::grid::Grid;
 use crate::surface::marching::{Extraction, Report, SurfaceError, extract_bare};
 use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
-use crate::surface::sharp::{Plain, Sharpened, extract_as};
+use crate::surface::sharp::{Plain, Sharpened, extract_as, outlines_as};
 use crate::vm::{Demand, Shape};
 
 use super::PictureOptions;
@@ -43,16 +42,18 @@ struct Wanted<'a> {
 }
 
 /// A boundary as a file holds it.
-struct Body {
-    name: String,
-    mesh: Mesh,
+pub(super) struct Body {
+    pub(super) name: String,
+    pub(super) mesh: Mesh,
     colours: Option<Vec<[u8; 3]>>,
     tint: [u8; 4],
     line: String,
+    /// Which of several objects it is.
+    pub(super) place: usize,
 }
 
 impl Body {
-    fn part(&self) -> Part<'_> {
+    pub(super) fn part(&self) -> Part<'_> {
         Part { colours: self.colours.as_deref(), tint: self.tint, ..Part::of(&self.name, &self.mesh) }
     }
 
@@ -86,6 +87,11 @@ impl<'a> Making<'a> {
             let bodies = self.bodies(&wanted, &grid, moment)?;
             let lines: Vec<&str> = bodies.iter().map(|body| body.line.as_str()).collect();
             self.line(n, &lines.join("; "), begun);
+            if self.output.format == Format::Pov {
+                let scene = self.scene(&bodies, moment)?;
+                self.put(n, &mut |out| export::pov::write(&scene, &mut { out }))?;
+                continue;
+            }
             let thumbnail = self.thumbnail(moment)?;
             let (format, name) = (self.output.format, self.subject.name.clone());
             let parts: Vec<Part> = bodies.iter().map(Body::part).collect();
@@ -98,7 +104,7 @@ impl<'a> Making<'a> {
     fn several(&self) -> Result<(), Diagnostic> {
         if let Format::Stl | Format::Ply = self.output.format {
             let what = format!("an .{}", self.output.format.extension()).replace("an .p", "a .p");
-            let keep = "an .obj, .glb or .3mf keeps them apart under their names";
+            let keep = "an .obj, .glb, .3mf or .pov keeps them apart under their names";
             self.subject.is_alone(&what).map_err(|told| told.help(keep))?;
         }
         if self.subject.beside.is_empty() {
@@ -123,13 +129,14 @@ impl<'a> Making<'a> {
     fn bodies(&mut self, wanted: &[Wanted<'a>], grid: &Grid, moment: f64) -> Result<Vec<Body>, Diagnostic> {
         let (first, mut nothing) = (self.subject, None);
         let mut bodies = Vec::with_capacity(wanted.len());
-        for one in wanted {
+        for (place, one) in wanted.iter().enumerate() {
             // What is told meanwhile is told of that object.
             self.subject = one.subject;
             match self.mesh(one.subject.node, &one.shape, grid, moment)? {
                 (Some(mesh), line, _) => {
                     let colours = one.paint.as_ref().map(|paint| self.colours(paint, &mesh, moment)).transpose()?;
-                    bodies.push(Body { name: one.subject.name.to_string(), mesh, colours, tint: [255; 4], line });
+                    let name = one.subject.name.to_string();
+                    bodies.push(Body { name, mesh, colours, tint: [255; 4], line, place });
                 }
                 (None, _, report) => {
                     nothing.get_or_insert(report);
@@ -186,7 +193,7 @@ impl<'a> Making<'a> {
                 match self.mesh(member.node, &member.shape, grid, moment)? {
                     (Some(mesh), line, _) => {
                         let (name, tint) = (member.label.clone(), [*r, *g, *b, SHOWS_THROUGH]);
-                        bodies.push(Body { name, mesh, colours: None, tint, line });
+                        bodies.push(Body { name, mesh, colours: None, tint, line, place: 0 });
                     }
                     (None, ..) => self.missing(&member.label),
                 }
@@ -277,13 +284,20 @@ impl<'a> Making<'a> {
         let single = self.subject.is_single();
         for (n, moment) in self.moments().into_iter().enumerate() {
             let begun = Instant::now();
-            let mut slices = Vec::new();
+            let (mut slices, mut corners) = (Vec::new(), Sharpened::default());
             for (member, [r, g, b, _]) in members.iter().zip(&colours) {
                 let shape = self.subject.at(&member.shape, moment);
-                let found = match self.star_outline(member.node, &shape, &grid)? {
+                let sharp = self.options.view.sharp;
+                // Corners as they are come from the search, which knows where they lie.
+                let searched = sharp && self.options.view.route == Route::Auto;
+                let star = if searched { None } else { self.star_outline(member.node, &shape, &grid)? };
+                let found = match star {
                     Some(found) => found,
-                    None => outlines(&shape, &grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?,
+                    None => outlines_as(&shape, &grid, sharp, self.shop.limits, self.shop.interrupt).map_err(unmade)?,
                 };
+                if let Some(sharpened) = &found.report.sharpened {
+                    corners.add(sharpened);
+                }
                 if !found.lines.is_empty() {
                     self.say(told::of_report(self.subject, &found.report));
                 }
@@ -295,7 +309,8 @@ impl<'a> Making<'a> {
                 return Err(empty(self.subject, Some(moment), None));
             }
             let full = slices.iter().filter(|slice| !slice.loops.is_empty()).count();
-            self.line(n, &format!("{count} outlines in {full} of {} sections", slices.len()), begun);
+            let sharp = if self.options.view.sharp { corners_line(&corners) } else { String::new() };
+            self.line(n, &format!("{count} outlines in {full} of {} sections{sharp}", slices.len()), begun);
             let name = self.subject.name.clone();
             self.put(n, &mut |out| svg::write(&slices, [x[0], y[0]], [x[1], y[1]], &name, &mut { out }))?;
         }
@@ -336,10 +351,33 @@ fn mesh_line(extraction: &Extraction, topology: &Topology) -> String {
 
 /// What became of the cells that creases cross.
 fn creases_line(sharpened: &Sharpened) -> String {
+    let why = why_plain(sharpened) + &torn_line(sharpened);
+    format!(", {} cells sharp, {} left plain{why}", sharpened.cells, sharpened.left())
+}
+
+/// What became of the corners of outlines.
+fn corners_line(sharpened: &Sharpened) -> String {
+    format!(
+        ", {} corners, {} left beveled{}{}",
+        sharpened.vertices,
+        sharpened.left(),
+        why_plain(sharpened),
+        torn_line(sharpened)
+    )
+}
+
+fn torn_line(sharpened: &Sharpened) -> String {
+    match sharpened.torn {
+        0 => String::new(),
+        1 => ", 1 torn-off tip put back".to_owned(),
+        torn => format!(", {torn} torn-off tips put back"),
+    }
+}
+
+fn why_plain(sharpened: &Sharpened) -> String {
     let reasons = Plain::ALL.iter().zip(sharpened.plain).filter(|(_, count)| *count > 0);
     let reasons: Vec<String> = reasons.map(|(reason, count)| format!("{count}: {}", reason.told())).collect();
-    let why = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) };
-    format!(", {} cells sharp, {} left plain{why}", sharpened.cells, sharpened.left())
+    if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) }
 }
 
 fn write_meshes(

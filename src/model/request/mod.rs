@@ -12,6 +12,7 @@ pub mod measured;
 pub mod output;
 pub mod paint;
 mod pictures;
+mod povray;
 mod preview;
 mod solids;
 mod space;

@@ -17,6 +17,8 @@ pub enum Format {
     Glb,
     /// A mesh for printing, with colours and a picture of it.
     ThreeMf,
+    /// A mesh with normals and colours, and where it can be the formula, as a scene for POV-Ray.
+    Pov,
     /// A picture.
     Png,
     /// Outlines in the plane.
@@ -51,6 +53,7 @@ pub const FORMATS: &[(Format, &str, &str, Kind)] = &[
     (Format::Ply, "ply", "a mesh with normals and colours, binary", Kind::Mesh),
     (Format::Glb, "glb", "a mesh for viewers, binary; over T it moves, groups show through", Kind::Mesh),
     (Format::ThreeMf, "3mf", "a mesh for printing, in millimetres, with colours", Kind::Mesh),
+    (Format::Pov, "pov", "a scene for POV-Ray: a mesh, and the formula where it has one", Kind::Mesh),
     (Format::Png, "png", "a picture, a graph or a contour map", Kind::Picture),
     (Format::Svg, "svg", "outlines of a plane figure, or slices of a solid (--slices)", Kind::Outlines),
     (Format::Gif, "gif", "an animation over T", Kind::Animation),
@@ -151,7 +154,7 @@ fn meant(extension: &str) -> String {
         (None, "jpg" | "jpeg" | "bmp" | "webp" | "tif" | "tiff") => "a picture is a `.png`".into(),
         (None, "mp4" | "webm" | "avi") => "an animation is a `.gif` or an `.apng`".into(),
         (None, "step" | "stp" | "iges" | "off" | "amf" | "fbx" | "gltf") => {
-            "a mesh is a `.stl .obj .ply .glb` or `.3mf`".into()
+            "a mesh is a `.stl .obj .ply .glb .3mf` or `.pov`".into()
         }
         (None, _) => known(),
     }
@@ -171,7 +174,7 @@ mod tests {
         let file = |text: &str| Output::parse(text, None).map(|output| output.format);
         assert_eq!(file("a.stl"), Ok(Format::Stl));
         assert_eq!(file("b/c.d/a.NRRD"), Ok(Format::Nrrd));
-        assert!(file("a.doc").is_err_and(|e| e.contains(".stl .obj .ply .glb .3mf .png .svg .gif .apng")));
+        assert!(file("a.doc").is_err_and(|e| e.contains(".stl .obj .ply .glb .3mf .pov .png .svg .gif .apng")));
         assert!(file("a.slt").is_err_and(|e| e.contains("did you mean `.stl`")));
         assert!(file("a.jpg").is_err_and(|e| e.contains("`.png`")));
         assert!(file("a").is_err_and(|e| e.contains("no extension")));

@@ -127,7 +127,7 @@ impl Ready {
                 let bytes = session.host.read(path, session.limits.data_bytes).map_err(|error| error.diagnostic())?;
                 let name = path.display().to_string();
                 let surface =
-                    obj::read(&String::from_utf8_lossy(&bytes)).map_err(|error| bad(&name, &error.to_string()))?;
+                    obj::read(&bytes).map_err(|error| bad(&name, &error.to_string()))?;
                 let guide = Guide::of_mesh(&surface.positions, &surface.triangles);
                 Self::Solid(guide.map_err(|error| bad(&name, &error.to_string()))?)
             }

@@ -35,7 +35,7 @@ impl Surfaces {
     }
 
     /// All pieces of the surfaces of some pieces.
-    fn whole(&self, pieces: u64) -> u64 {
+    pub(super) fn whole(&self, pieces: u64) -> u64 {
         (0..self.of.len()).filter(|piece| pieces >> piece & 1 == 1).fold(0, |all, piece| all | self.of[piece])
     }
 
@@ -75,7 +75,7 @@ impl Cost {
     }
 }
 
-/// Triangles by positions in the polygon; position `corners.len()` is a new vertex within.
+/// Triangles by positions in the polygon.
 #[derive(Clone, Debug)]
 pub(super) struct Filling {
     pub(super) triangles: Vec<[usize; 3]>,
@@ -120,13 +120,4 @@ pub(super) fn cut(corners: &[Corner], surfaces: &Surfaces) -> Option<Filling> {
         open.extend([(i, k), (k, j)]);
     }
     Some(Filling { triangles, is_sharp: cost.0 == 0 && cost.1 == 0 })
-}
-
-/// The fan about a vertex within.
-pub(super) fn fan(corners: &[Corner], middle: &Corner, surfaces: &Surfaces) -> Filling {
-    let n = corners.len();
-    let triangles: Vec<[usize; 3]> = (0..n).map(|i| [n, i, (i + 1) % n]).collect();
-    let is_good = |&[_, i, j]: &[usize; 3]| surfaces.judge([middle, &corners[i], &corners[j]]) == (true, false);
-    let is_sharp = triangles.iter().all(is_good);
-    Filling { triangles, is_sharp }
 }

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use super::super::grid::{Grid, LEAF};
+use super::super::grid::Grid;
 use super::super::mesh::Mesh;
+use super::leaf_of;
 
 /// Triangles that lie in one cell and follow each other in the mesh.
 #[derive(Clone, Debug)]
@@ -15,9 +16,7 @@ pub(super) struct Patch {
 impl Patch {
     /// The number of the leaf that owns the cell.
     pub(super) fn leaf(&self, grid: &Grid) -> usize {
-        let [x, y, _] = grid.leaves();
-        let at = self.cell.map(|i| i / LEAF);
-        at[0] + x * (at[1] + y * at[2])
+        leaf_of(grid, self.cell)
     }
 }
 
@@ -36,7 +35,7 @@ pub(super) fn patches(mesh: &Mesh, own: usize, grid: &Grid) -> Vec<Patch> {
 }
 
 /// The cell that holds a coordinate. The middle of a triangle is never in a face of its cell.
-fn cell_along(grid: &Grid, axis: usize, at: f64) -> usize {
+pub(super) fn cell_along(grid: &Grid, axis: usize, at: f64) -> usize {
     let last = grid.cells[axis] - 1;
     let mut cell = (((at - grid.lo[axis]) / grid.cell()[axis]) as usize).min(last);
     while cell > 0 && at < grid.coordinate(axis, cell) {

@@ -1,50 +1,77 @@
-//! What one leaf knows of creases: the smooth pieces that are live in it, which of them each vertex lies on, and where the sides between
-//! vertices of different pieces cross the crease. Changes no mesh.
+//! What one leaf knows of creases: the smooth pieces that are live in it, which of them each vertex lies on, and for each polygon that holds
+//! several of them the point where they meet. Changes no mesh.
 
 use rustc_hash::FxHashMap;
 
-use super::super::grid::Grid;
+use super::super::boxes::Lattice;
+use super::super::grid::{Grid, LEAF};
 use super::super::mesh::Mesh;
 use super::super::sampler::Sampler;
+use super::fill::{Corner, Surfaces, cut};
 use super::patches::{Patch, polygons};
 use super::solve::{Local, Meeting, Scale, meet};
 use super::{Plain, Work};
 use crate::vm::{Pieces, Program, Shape};
 
-/// Parts into which the way out is cut where a third surface is looked for.
-const PARTS: usize = 64;
-/// Steps that halve one of them.
-const HALVINGS: usize = 48;
-/// Operations of a program that is too long to be asked time and again.
-const LONG: usize = 1 << 11;
-/// Creases that may cross one side.
-const DEPTH: usize = 2;
+/// Rounds of questions: pairs of surfaces, corners, corners with a surface that was not seen, and the same for the parts of a polygon.
+const ROUNDS: usize = 16;
+/// Surfaces that a corner may get when it turns out not to be on the boundary.
+const UNSEEN: usize = 2;
+/// How far from the middle of its polygon a point may lie, in cells.
+const REACH: f64 = 6.0;
 
-/// What was found between two vertices that lie on different pieces.
+/// A new vertex: where it lies, and on which pieces, with their normals.
 #[derive(Clone, Debug)]
-pub(super) struct Segment {
-    /// The two vertices, the smaller number first.
-    pub(super) ends: [u32; 2],
-    /// New vertices between them, in that order.
-    pub(super) points: Vec<[f64; 3]>,
-    /// Pieces that go over into each other without a crease.
-    pub(super) smooth: Vec<[usize; 2]>,
-    /// Pieces that are between those of the two vertices.
-    pub(super) between: Vec<usize>,
-    /// Why there is none.
+pub(super) struct Site {
+    pub(super) at: [f64; 3],
+    pub(super) on: Vec<(usize, [f64; 3])>,
+}
+
+/// How a part of a polygon is filled.
+#[derive(Clone, Debug)]
+pub(super) enum Fill {
+    /// With triangles that lie on one surface each.
+    Cut(Vec<[u32; 3]>),
+    /// About a new vertex.
+    Fan(Site),
+}
+
+/// A polygon of a cell in which surfaces meet.
+#[derive(Clone, Debug)]
+pub(super) struct Facet {
+    /// The cell.
+    pub(super) patch: usize,
+    /// The triangles that fill it as long as it is plain.
+    pub(super) plain: Vec<[u32; 3]>,
+    /// The corners of its parts, and how they are filled.
+    pub(super) parts: Vec<(Vec<u32>, Fill)>,
+    /// New vertices on sides that lie in a face of the space: their ends, in the direction of the polygon.
+    pub(super) sides: Vec<([u32; 2], Site)>,
+    /// Why it stays plain.
     pub(super) failed: Option<Plain>,
+}
+
+impl Facet {
+    /// All its new vertices.
+    pub(super) fn sites(&mut self) -> impl Iterator<Item = &mut Site> {
+        let centres = self.parts.iter_mut().filter_map(|(_, fill)| match fill {
+            Fill::Fan(site) => Some(site),
+            Fill::Cut(_) => None,
+        });
+        centres.chain(self.sides.iter_mut().map(|(_, site)| site))
+    }
 }
 
 /// What was found in a leaf.
 pub(super) struct Study {
-    /// The patches that hold more than one piece.
-    pub(super) patches: Vec<usize>,
     /// The pieces.
     pub(super) pieces: Vec<Program>,
-    /// The piece of each vertex.
-    pub(super) piece_of: FxHashMap<u32, usize>,
-    /// The sides that may cross a crease, each once.
-    pub(super) segments: Vec<Segment>,
+    /// Pieces that go over into each other without a crease.
+    pub(super) smooth: Vec<[usize; 2]>,
+    /// The pieces on which vertices lie, with their normals.
+    pub(super) on: Vec<(u32, usize, [f64; 3])>,
+    /// The polygons.
+    pub(super) facets: Vec<Facet>,
 }
 
 /// The parts of one thread that studies.
@@ -55,6 +82,100 @@ pub(super) struct Student<'a> {
     pub(super) shape: &'a Shape,
     pub(super) sampler: Sampler,
     pub(super) tracer: Pieces,
+}
+
+/// What is asked about a polygon next.
+enum Stage {
+    /// Where the pieces of its sides meet, two by two.
+    Pairs,
+    /// Where these pieces meet.
+    Corner(Vec<usize>),
+    Done,
+}
+
+/// A polygon, or a part of one, about which questions are open.
+struct Open {
+    facet: usize,
+    cell: [usize; 3],
+    corners: Vec<Corner>,
+    /// The pieces, by their bits.
+    numbers: Vec<usize>,
+    surfaces: Surfaces,
+    stage: Stage,
+    unseen: usize,
+}
+
+/// A question: where these pieces meet near a place, in the plane across an axis if there is one.
+struct Question {
+    open: usize,
+    pieces: Vec<usize>,
+    axis: Option<usize>,
+    from: [f64; 3],
+    /// The side that asks.
+    side: Option<[u32; 2]>,
+}
+
+/// A point where pieces meet.
+struct Candidate {
+    open: usize,
+    pieces: Vec<usize>,
+    at: [f64; 3],
+    locals: Vec<Local>,
+}
+
+impl Candidate {
+    /// Whether it is on the boundary of the whole, which has this value there, not only on those of the pieces.
+    fn is_boundary(&self, value: f64, scale: &Scale) -> bool {
+        Local { value, ..self.locals[0] }.distance() <= 4.0 * scale.near
+    }
+
+    fn site(&self, at: [f64; 3]) -> Site {
+        Site { at, on: self.pieces.iter().copied().zip(self.locals.iter().map(Local::normal)).collect() }
+    }
+}
+
+impl Open {
+    fn bit(&self, piece: usize) -> usize {
+        self.numbers.iter().position(|&number| number == piece).unwrap_or(0)
+    }
+
+    /// The positions in the ring where sides begin whose ends have no surface in common.
+    fn crossed(&self) -> Vec<usize> {
+        let n = self.corners.len();
+        let pair = |i: usize| [&self.corners[i], &self.corners[(i + 1) % n]];
+        (0..n).filter(|&i| self.surfaces.common(pair(i)) == 0).collect()
+    }
+
+    /// The middle of a side.
+    fn middle(&self, side: usize) -> [f64; 3] {
+        let [a, b] = [self.corners[side].at, self.corners[(side + 1) % self.corners.len()].at];
+        std::array::from_fn(|d| 0.5 * (a[d] + b[d]))
+    }
+
+    /// One piece of each corner of the ring.
+    fn piece(&self, corner: usize) -> usize {
+        self.numbers[self.corners[corner].on.trailing_zeros() as usize % self.numbers.len()]
+    }
+
+    /// One piece of each surface that the ring needs, ascending.
+    fn surfaces_needed(&self) -> Vec<usize> {
+        let mut taken = 0_u64;
+        let wholes: Vec<u64> = self.corners.iter().map(|corner| self.surfaces.whole(corner.on)).collect();
+        let first = |whole: u64| self.surfaces.of[whole.trailing_zeros() as usize];
+        let mut needed = Vec::new();
+        // Corners on one surface first: the others may do with what these need.
+        for is_single in [true, false] {
+            for &whole in &wholes {
+                let surface = first(whole);
+                if whole & taken == 0 && (whole == surface) == is_single {
+                    taken |= surface;
+                    needed.push(self.numbers[surface.trailing_zeros() as usize]);
+                }
+            }
+        }
+        needed.sort_unstable();
+        needed
+    }
 }
 
 impl Student<'_> {
@@ -68,201 +189,407 @@ impl Student<'_> {
         vertices.dedup();
         let places: Vec<[f64; 3]> = vertices.iter().map(|&v| self.mesh.positions[v as usize]).collect();
         let mut pieces = Vec::new();
-        let which = self.trace(&work.program, &places, &mut pieces);
+        let which = trace(&mut self.tracer, self.shape, &work.program, &places, &mut pieces);
         if pieces.len() < 2 {
             return None;
         }
         let piece_of: FxHashMap<u32, usize> = vertices.into_iter().zip(which).collect();
-        let mut study = Study { patches: Vec::new(), pieces, piece_of, segments: Vec::new() };
-        let mut known = FxHashMap::default();
+        let mut study = Study { pieces, smooth: Vec::new(), on: Vec::new(), facets: Vec::new() };
+        let mut rings = Vec::new();
         for at in work.patches.clone() {
             let triangles = &self.mesh.triangles[patches[at].triangles.clone()];
-            let first = study.piece_of[&triangles[0][0]];
-            if triangles.iter().flatten().all(|v| study.piece_of[v] == first) {
+            let first = piece_of[&triangles[0][0]];
+            if triangles.iter().flatten().all(|v| piece_of[v] == first) {
                 continue;
             }
-            study.patches.push(at);
             for polygon in polygons(triangles) {
-                let sides = polygon.corners.iter().zip(polygon.corners.iter().cycle().skip(1));
-                for (&a, &b) in sides {
-                    let ends = [a.min(b), a.max(b)];
-                    if study.piece_of[&a] != study.piece_of[&b] && known.insert(ends, ()).is_none() {
-                        let segment = self.segment(&work.program, ends, patches[at].cell, &mut study);
-                        study.segments.extend(segment);
+                let first = piece_of[&polygon.corners[0]];
+                if polygon.corners.iter().any(|v| piece_of[v] != first) {
+                    rings.push((patches[at].cell, polygon.corners));
+                    let facet = Facet {
+                        patch: at,
+                        plain: polygon.triangles,
+                        parts: Vec::new(),
+                        sides: Vec::new(),
+                        failed: None,
+                    };
+                    study.facets.push(facet);
+                }
+            }
+        }
+        let mut opens = self.open(&rings, &piece_of, &mut study);
+        for _ in 0..ROUNDS {
+            if opens.iter().all(|open| matches!(open.stage, Stage::Done)) {
+                break;
+            }
+            let questions = self.questions(&opens);
+            let answers = self.answers(&questions, &study.pieces);
+            self.hear(work, &mut opens, questions, answers, &mut study);
+        }
+        for open in opens.iter().filter(|open| !matches!(open.stage, Stage::Done)) {
+            study.facets[open.facet].failed = Some(Plain::Crowded);
+        }
+        study.facets.retain(|facet| facet.failed.is_some() || !facet.parts.is_empty());
+        Some(study)
+    }
+
+    /// The polygons with what is known of their corners.
+    fn open(
+        &mut self,
+        rings: &[([usize; 3], Vec<u32>)],
+        piece_of: &FxHashMap<u32, usize>,
+        study: &mut Study,
+    ) -> Vec<Open> {
+        let mut wanted: Vec<(usize, u32)> = Vec::new();
+        let numbers = |ring: &[u32]| {
+            let mut numbers: Vec<usize> = ring.iter().map(|v| piece_of[v]).collect();
+            numbers.sort_unstable();
+            numbers.dedup();
+            numbers.truncate(60);
+            numbers
+        };
+        for (_, ring) in rings {
+            let numbers = numbers(ring);
+            ring.iter().for_each(|&v| wanted.extend(numbers.iter().map(|&piece| (piece, v))));
+        }
+        wanted.sort_unstable();
+        wanted.dedup();
+        let mut known: FxHashMap<(usize, u32), Local> = FxHashMap::default();
+        for same in wanted.chunk_by(|a, b| a.0 == b.0) {
+            let at: Vec<[f64; 3]> = same.iter().map(|(_, v)| self.mesh.positions[*v as usize]).collect();
+            let locals = Local::all(&study.pieces[same[0].0], &at, &mut self.sampler);
+            known.extend(same.iter().copied().zip(locals));
+        }
+        for &(piece, v) in &wanted {
+            let local = known[&(piece, v)];
+            if piece_of[&v] == piece || local.distance() <= self.scale.near {
+                study.on.push((v, piece, local.normal()));
+            }
+        }
+        let mut opens = Vec::new();
+        for (facet, (cell, ring)) in rings.iter().enumerate() {
+            let numbers = numbers(ring);
+            let surfaces = Surfaces::new(numbers.len());
+            let corners = ring.iter().map(|&vertex| {
+                let locals: Vec<Local> = numbers.iter().map(|&piece| known[&(piece, vertex)]).collect();
+                let is_on = |(bit, local): (usize, &Local)| {
+                    let on = numbers[bit] == piece_of[&vertex] || local.distance() <= self.scale.near;
+                    u64::from(on) << bit
+                };
+                let on = locals.iter().enumerate().map(is_on).fold(0, |on, bit| on | bit);
+                let at = self.mesh.positions[vertex as usize];
+                Corner {
+                    vertex,
+                    at,
+                    faces: self.faces(*cell, at),
+                    on,
+                    normals: locals.iter().map(Local::normal).collect(),
+                }
+            });
+            let corners: Vec<Corner> = corners.collect();
+            let is_step = ring.iter().any(|&v| {
+                let own = known[&(piece_of[&v], v)];
+                own.distance().is_nan() || own.distance() > 10.0 * self.scale.near
+            });
+            let mut open = Open { facet, cell: *cell, corners, numbers, surfaces, stage: Stage::Pairs, unseen: 0 };
+            if is_step {
+                study.facets[facet].failed = Some(Plain::Step);
+                open.stage = Stage::Done;
+            } else {
+                settle(&mut open, study);
+            }
+            opens.push(open);
+        }
+        opens
+    }
+
+    /// The faces of a cell in which a place lies, a bit each.
+    fn faces(&self, cell: [usize; 3], at: [f64; 3]) -> u8 {
+        let (lo, hi) = (self.grid.point(cell), self.grid.point(cell.map(|i| i + 1)));
+        let face = |d: usize| u8::from(at[d] == lo[d]) << (2 * d) | u8::from(at[d] == hi[d]) << (2 * d + 1);
+        face(0) | face(1) | face(2)
+    }
+
+    /// The axis across the face of the space in which both ends of a side lie.
+    fn face_of_space(&self, a: [f64; 3], b: [f64; 3]) -> Option<usize> {
+        (0..self.grid.dimension()).find(|&d| a[d] == b[d] && (a[d] == self.grid.lo[d] || a[d] == self.grid.hi[d]))
+    }
+
+    fn questions(&self, opens: &[Open]) -> Vec<Question> {
+        let mut questions = Vec::new();
+        for (number, open) in opens.iter().enumerate() {
+            let crossed = open.crossed();
+            let n = open.corners.len();
+            let mean = |sides: &[usize]| -> [f64; 3] {
+                let sum = sides
+                    .iter()
+                    .map(|&side| open.middle(side))
+                    .fold([0.0; 3], |sum, middle| std::array::from_fn(|d| sum[d] + middle[d]));
+                sum.map(|c| c / sides.len().max(1) as f64)
+            };
+            match &open.stage {
+                Stage::Done => {}
+                Stage::Pairs => {
+                    let mut pairs: Vec<([usize; 2], usize)> = Vec::new();
+                    for &side in &crossed {
+                        let [a, b] = [open.piece(side), open.piece((side + 1) % n)];
+                        pairs.push(([a.min(b), a.max(b)], side));
+                        let [from, to] = [&open.corners[side], &open.corners[(side + 1) % n]];
+                        if let Some(axis) = self.face_of_space(from.at, to.at) {
+                            questions.push(Question {
+                                open: number,
+                                pieces: vec![a.min(b), a.max(b)],
+                                axis: Some(axis),
+                                from: open.middle(side),
+                                side: Some([from.vertex, to.vertex]),
+                            });
+                        }
+                    }
+                    pairs.sort_unstable();
+                    for same in pairs.chunk_by(|a, b| a.0 == b.0) {
+                        let sides: Vec<usize> = same.iter().map(|(_, side)| *side).collect();
+                        let pieces = same[0].0.to_vec();
+                        questions.push(Question { open: number, pieces, axis: None, from: mean(&sides), side: None });
+                    }
+                }
+                Stage::Corner(pieces) => questions.push(Question {
+                    open: number,
+                    pieces: pieces.clone(),
+                    axis: None,
+                    from: mean(&crossed),
+                    side: None,
+                }),
+            }
+        }
+        questions
+    }
+
+    /// Where they meet; questions about the same pieces at once.
+    fn answers(&mut self, questions: &[Question], pieces: &[Program]) -> Vec<Meeting> {
+        let mut order: Vec<usize> = (0..questions.len()).collect();
+        order.sort_by(|&a, &b| {
+            let key = |i: usize| (&questions[i].pieces, questions[i].axis, i);
+            key(a).cmp(&key(b))
+        });
+        let mut answers = vec![Meeting::Nowhere; questions.len()];
+        let is_same = |&a: &usize, &b: &usize| {
+            questions[a].pieces == questions[b].pieces && questions[a].axis == questions[b].axis
+        };
+        for same in order.chunk_by(is_same) {
+            let of: Vec<&Program> = questions[same[0]].pieces.iter().map(|&piece| &pieces[piece]).collect();
+            let from: Vec<[f64; 3]> = same.iter().map(|&i| questions[i].from).collect();
+            let found = meet(&of, &from, questions[same[0]].axis, &self.scale, &mut self.sampler);
+            same.iter().zip(found).for_each(|(&i, meeting)| answers[i] = meeting);
+        }
+        answers
+    }
+
+    /// What follows from the answers.
+    fn hear(
+        &mut self,
+        work: &Work,
+        opens: &mut Vec<Open>,
+        questions: Vec<Question>,
+        answers: Vec<Meeting>,
+        study: &mut Study,
+    ) {
+        let asked = opens.len();
+        let mut said: Vec<Vec<Candidate>> = (0..asked).map(|_| Vec::new()).collect();
+        for (question, answer) in questions.into_iter().zip(answers) {
+            let open = &mut opens[question.open];
+            match answer {
+                Meeting::Smooth => {
+                    let [a, b] = [question.pieces[0], question.pieces[1]];
+                    open.surfaces.join(open.bit(a), open.bit(b));
+                    study.smooth.push([a, b]);
+                }
+                Meeting::At(at, locals) => {
+                    let candidate = Candidate { open: question.open, pieces: question.pieces.clone(), at, locals };
+                    match question.side {
+                        Some(_) => self.note_side(&question, candidate, open.cell, &mut study.facets[open.facet]),
+                        None => said[question.open].push(candidate),
+                    }
+                }
+                Meeting::Nowhere => {}
+            }
+        }
+        let mut candidates = Vec::new();
+        for (number, mut mine) in said.into_iter().enumerate() {
+            match opens[number].stage {
+                Stage::Done => {}
+                Stage::Corner(_) => match mine.pop() {
+                    Some(candidate) => candidates.push(candidate),
+                    None => fail(&mut opens[number], study, Plain::Apart),
+                },
+                Stage::Pairs => {
+                    if settle(&mut opens[number], study) {
+                        continue;
+                    }
+                    if let Some(parts) = self.parted(&opens[number], &study.pieces) {
+                        opens[number].stage = Stage::Done;
+                        opens.extend(parts);
+                        continue;
+                    }
+                    let needed = opens[number].surfaces_needed();
+                    match mine.into_iter().find(|candidate| candidate.pieces == needed) {
+                        Some(candidate) => candidates.push(candidate),
+                        None if needed.len() < 2 => fail(&mut opens[number], study, Plain::Crowded),
+                        None if needed.len() == 2 => fail(&mut opens[number], study, Plain::Apart),
+                        None => opens[number].stage = Stage::Corner(needed),
                     }
                 }
             }
         }
-        Some(study)
+        for open in &mut opens[asked..] {
+            settle(open, study);
+        }
+        self.judge(work, opens, candidates, study);
     }
 
-    /// The piece of the program at each place.
-    pub(super) fn trace(&mut self, program: &Program, places: &[[f64; 3]], pieces: &mut Vec<Program>) -> Vec<usize> {
-        let mut columns: Vec<Vec<f64>> =
-            (0..self.shape.dimension).map(|d| places.iter().map(|p| p[d]).collect()).collect();
-        columns.extend(self.shape.fixed.iter().map(|&value| vec![value; places.len()]));
-        let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let mut which = vec![0; places.len()];
-        self.tracer.at(program, &slices, pieces, &mut which);
-        which
-    }
-
-    /// Looks for the crease between two vertices; none where one of them lies on both surfaces.
-    fn segment(&mut self, program: &Program, ends: [u32; 2], cell: [usize; 3], study: &mut Study) -> Option<Segment> {
-        let places = ends.map(|v| self.mesh.positions[v as usize]);
-        let pieces = ends.map(|v| study.piece_of[&v]);
-        let mut segment = Segment { ends, points: Vec::new(), smooth: Vec::new(), between: Vec::new(), failed: None };
-        for k in 0..2 {
-            let [own, other] =
-                [pieces[k], pieces[1 - k]].map(|piece| Local::of(&study.pieces[piece], places[k], &mut self.sampler));
-            if own.distance() > 10.0 * self.scale.near {
-                segment.failed = Some(Plain::Step);
-                return Some(segment);
-            }
-            if other.distance() <= self.scale.near {
-                return None;
+    /// A new vertex in a face of the space, if it is on the boundary there.
+    fn note_side(&mut self, question: &Question, candidate: Candidate, cell: [usize; 3], facet: &mut Facet) {
+        let (Some(axis), Some(side)) = (question.axis, question.side) else { return };
+        let (lo, hi) = (self.grid.point(cell), self.grid.point(cell.map(|i| i + 1)));
+        let far = self.scale.cells(question.from, candidate.at).iter().any(|way| way.abs() > 2.0);
+        let mut at = candidate.at;
+        for d in (0..3).filter(|&d| d != axis) {
+            match self.scale.kept_off(d, at[d], [lo[d], hi[d]]) {
+                Some(kept) => at[d] = kept,
+                None => return,
             }
         }
-        let Some(square) = Square::of(self.grid, cell, places) else {
-            segment.failed = Some(Plain::Apart);
-            return Some(segment);
-        };
-        let ends = [(places[0], pieces[0]), (places[1], pieces[1])];
-        if let Err(reason) = self.cross(program, ends, &square, &mut study.pieces, &mut segment, DEPTH) {
-            segment.points.clear();
-            segment.failed = Some(reason);
+        let value = Local::values(&self.shape.program, &[at], &mut self.sampler)[0];
+        if !far && candidate.is_boundary(value, &self.scale) {
+            facet.sides.push((side, candidate.site(at)));
         }
-        Some(segment)
     }
 
-    /// The creases that the outline in a square crosses between two of its points, each with its piece.
-    fn cross(
-        &mut self,
-        program: &Program,
-        ends: [([f64; 3], usize); 2],
-        square: &Square,
-        pieces: &mut Vec<Program>,
-        segment: &mut Segment,
-        depth: usize,
-    ) -> Result<(), Plain> {
-        let pair = ends.map(|(_, piece)| &pieces[piece]);
-        let reason = match meet(pair, ends.map(|(at, _)| at), square.axis, &self.scale, &mut self.sampler) {
-            Meeting::Smooth => {
-                segment.smooth.push(ends.map(|(_, piece)| piece));
-                return Ok(());
-            }
-            Meeting::At(place) => match square.within(place, &self.scale) {
-                Some(place) if self.is_boundary(pair[0], place) => {
-                    segment.points.push(place);
-                    return Ok(());
+    /// Keeps the points that are on the boundary of the whole, and asks again with the surface that hides the others.
+    fn judge(&mut self, work: &Work, opens: &mut [Open], candidates: Vec<Candidate>, study: &mut Study) {
+        let is_near = |candidate: &Candidate| self.is_in_leaf(opens[candidate.open].cell, candidate.at);
+        let (within, beyond): (Vec<Candidate>, Vec<Candidate>) = candidates.into_iter().partition(is_near);
+        let shape = self.shape;
+        for (program, candidates) in [(&work.program, within), (&*shape.program, beyond)] {
+            let places: Vec<[f64; 3]> = candidates.iter().map(|candidate| candidate.at).collect();
+            let values = Local::values(program, &places, &mut self.sampler);
+            for (candidate, value) in candidates.into_iter().zip(values) {
+                let open = &mut opens[candidate.open];
+                let middle = open.middle(open.crossed().first().copied().unwrap_or(0));
+                let far = self.scale.cells(middle, candidate.at).iter().any(|way| way.abs() > REACH);
+                if far || !self.scale.holds(candidate.at, self.grid.dimension()) {
+                    fail(open, study, Plain::Outside);
+                } else if candidate.is_boundary(value, &self.scale) {
+                    let ring = open.corners.iter().map(|corner| corner.vertex).collect();
+                    study.facets[open.facet].parts.push((ring, Fill::Fan(candidate.site(candidate.at))));
+                    open.stage = Stage::Done;
+                } else if value.is_nan() || open.unseen == UNSEEN || !Pieces::has_branches(program) {
+                    fail(open, study, Plain::Hidden);
+                } else {
+                    let unseen = trace(&mut self.tracer, shape, program, &[candidate.at], &mut study.pieces)[0];
+                    let mut pieces = candidate.pieces;
+                    if pieces.contains(&unseen) {
+                        fail(open, study, Plain::Hidden);
+                        continue;
+                    }
+                    open.unseen += 1;
+                    pieces.push(unseen);
+                    pieces.sort_unstable();
+                    open.stage = Stage::Corner(pieces);
                 }
-                Some(_) => Plain::Hidden,
-                None => Plain::Outside,
-            },
-            Meeting::Nowhere => Plain::Apart,
-        };
-        let third = (depth > 0).then(|| self.third(program, ends, square, pieces)).flatten();
-        let third = third.ok_or(reason)?;
-        segment.between.push(third.1);
-        self.cross(program, [ends[0], third], square, pieces, segment, depth - 1)?;
-        self.cross(program, [third, ends[1]], square, pieces, segment, depth - 1)
-    }
-
-    /// Whether a place is on the boundary of the whole, not only on that of a piece.
-    pub(super) fn is_boundary(&mut self, piece: &Program, place: [f64; 3]) -> bool {
-        let value = self.whole(place);
-        let slope = Local::of(piece, place, &mut self.sampler).slope;
-        Local { value, slope }.distance() <= 4.0 * self.scale.near
-    }
-
-    /// The value of the whole, which the program of a leaf is only within it.
-    fn whole(&mut self, place: [f64; 3]) -> f64 {
-        Local::value(&self.shape.program, place, &mut self.sampler)
-    }
-
-    /// A point of the outline between two others that lies on a third piece.
-    fn third(
-        &mut self,
-        program: &Program,
-        [(a, first), (b, second)]: [([f64; 3], usize); 2],
-        square: &Square,
-        pieces: &mut Vec<Program>,
-    ) -> Option<([f64; 3], usize)> {
-        let [u, v] = square.sides();
-        let middle: [f64; 3] = std::array::from_fn(|d| 0.5 * (a[d] + b[d]));
-        let length = (b[u] - a[u]).hypot(b[v] - a[v]);
-        let (across_u, across_v) = ((b[v] - a[v]) / length, (a[u] - b[u]) / length);
-        let point = |t: f64| {
-            let mut at = middle;
-            at[u] += t * across_u;
-            at[v] += t * across_v;
-            at
-        };
-        let reach = 1.5 * self.scale.cell;
-        let is_long = self.shape.program.len() > LONG;
-        let mut is_inside = |t: f64| {
-            let value = match point(t) {
-                within if square.holds(within) => Local::value(program, within, &mut self.sampler),
-                _ if is_long => f64::NAN,
-                beyond => self.whole(beyond),
-            };
-            value >= 0.0
-        };
-        let here = is_inside(0.0);
-        let found =
-            (1..=PARTS).flat_map(|k| [k as f64, -(k as f64)]).find(|k| is_inside(reach * k / PARTS as f64) != here)?;
-        let (mut near, mut far) = ((found - found.signum()) * reach / PARTS as f64, found * reach / PARTS as f64);
-        for _ in 0..HALVINGS {
-            let half = 0.5 * (near + far);
-            if is_inside(half) == here {
-                near = half;
-            } else {
-                far = half;
             }
         }
-        let place = point(0.5 * (near + far));
-        let whole = &self.shape.program;
-        let program = if square.holds(place) || !Pieces::has_branches(whole) { program } else { whole };
-        let piece = self.trace(program, &[place], pieces)[0];
-        let on = Local::of(&pieces[piece], place, &mut self.sampler).distance() <= self.scale.near;
-        (on && piece != first && piece != second).then_some((place, piece))
-    }
-}
-
-/// The square of a cell in which a side lies.
-pub(super) struct Square {
-    /// The axis across it.
-    pub(super) axis: usize,
-    lo: [f64; 3],
-    hi: [f64; 3],
-}
-
-impl Square {
-    /// The face of a cell that holds both places.
-    fn of(grid: &Grid, cell: [usize; 3], [a, b]: [[f64; 3]; 2]) -> Option<Self> {
-        let lo = grid.point(cell);
-        let hi = grid.point(cell.map(|i| i + 1));
-        let axis = if grid.dimension() == 2 {
-            2
-        } else {
-            (0..3).find(|&d| a[d] == b[d] && (a[d] == lo[d] || a[d] == hi[d]))?
-        };
-        Some(Self { axis, lo, hi })
     }
 
-    fn sides(&self) -> [usize; 2] {
-        [(self.axis + 1) % 3, (self.axis + 2) % 3]
+    /// Whether the program of the leaf of a cell is right at a place.
+    fn is_in_leaf(&self, cell: [usize; 3], place: [f64; 3]) -> bool {
+        let counts = self.grid.counts();
+        (0..self.grid.dimension()).all(|d| {
+            let first = cell[d] / LEAF * LEAF;
+            let last = (first + LEAF).min(counts[d] - 1);
+            place[d] >= self.grid.coordinate(d, first) && place[d] <= self.grid.coordinate(d, last)
+        })
     }
 
-    fn holds(&self, at: [f64; 3]) -> bool {
-        self.sides().iter().all(|&d| at[d] >= self.lo[d] && at[d] <= self.hi[d])
-    }
-
-    /// The place, kept off the sides of the square; none if it lies too far beyond them.
-    fn within(&self, mut place: [f64; 3], scale: &Scale) -> Option<[f64; 3]> {
-        for d in self.sides() {
-            place[d] = scale.kept_off(d, place[d], [self.lo[d], self.hi[d]])?;
+    /// Two parts of a polygon that the same surface enters twice: cut where the chord lies on the boundary.
+    fn parted(&mut self, open: &Open, pieces: &[Program]) -> Option<[Open; 2]> {
+        let n = open.corners.len();
+        let crossed = open.crossed();
+        // Runs of corners on one surface begin behind the crossed sides.
+        let run = |corner: usize| crossed.iter().filter(|&&side| side < corner).count() % crossed.len().max(1);
+        let mut best: Option<(f64, f64, usize, usize)> = None;
+        for i in 0..n {
+            for j in i + 2..n {
+                let [a, b] = [&open.corners[i], &open.corners[j]];
+                let common = open.surfaces.common([a, b]);
+                if run(i) == run(j) || a.faces & b.faces != 0 || common == 0 {
+                    continue;
+                }
+                let middle: [f64; 3] = std::array::from_fn(|d| 0.5 * (a.at[d] + b.at[d]));
+                let value = Local::values(&self.shape.program, &[middle], &mut self.sampler)[0];
+                let piece = &pieces[open.numbers[common.trailing_zeros() as usize]];
+                let local = Local { value, ..Local::of(piece, middle, &mut self.sampler) };
+                let off = (local.distance() - self.scale.near).max(0.0);
+                let length = self.scale.cells(a.at, b.at).iter().map(|c| c * c).sum::<f64>();
+                let is_better = best.is_none_or(|(least, shortest, ..)| (off, length) < (least, shortest));
+                if off <= 0.1 * self.scale.cell.iter().fold(f64::INFINITY, |m: f64, &c| m.min(c)) && is_better {
+                    best = Some((off, length, i, j));
+                }
+            }
         }
-        Some(place)
+        let (_, _, i, j) = best?;
+        let part = |corners: Vec<Corner>| Open {
+            facet: open.facet,
+            cell: open.cell,
+            corners,
+            numbers: open.numbers.clone(),
+            surfaces: open.surfaces.clone(),
+            stage: Stage::Pairs,
+            unseen: 0,
+        };
+        let rest = open.corners[j..].iter().chain(&open.corners[..=i]).cloned().collect();
+        Some([part(open.corners[i..=j].to_vec()), part(rest)])
     }
+}
+
+/// The piece of a program at each place.
+pub(super) fn trace(
+    tracer: &mut Pieces,
+    shape: &Shape,
+    program: &Program,
+    places: &[[f64; 3]],
+    pieces: &mut Vec<Program>,
+) -> Vec<usize> {
+    let mut columns: Vec<Vec<f64>> = (0..shape.dimension).map(|d| places.iter().map(|p| p[d]).collect()).collect();
+    columns.extend(shape.fixed.iter().map(|&value| vec![value; places.len()]));
+    let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let mut which = vec![0; places.len()];
+    tracer.at(program, &slices, pieces, &mut which);
+    which
+}
+
+fn fail(open: &mut Open, study: &mut Study, reason: Plain) {
+    open.stage = Stage::Done;
+    study.facets[open.facet].failed = Some(reason);
+}
+
+/// Whether a polygon needs no new vertex.
+fn settle(open: &mut Open, study: &mut Study) -> bool {
+    if !open.crossed().is_empty() {
+        return false;
+    }
+    let facet = &mut study.facets[open.facet];
+    let is_whole = facet.plain.len() + 2 == open.corners.len();
+    let is_one = |triangle: &[u32; 3]| {
+        open.surfaces.common(open.corners.iter().filter(|corner| triangle.contains(&corner.vertex))) != 0
+    };
+    if is_whole && facet.plain.iter().all(is_one) {
+        open.stage = Stage::Done;
+        return true;
+    }
+    let Some(filling) = cut(&open.corners, &open.surfaces).filter(|filling| filling.is_sharp) else { return false };
+    let triangles = filling.triangles.iter().map(|t| t.map(|i| open.corners[i].vertex)).collect();
+    let ring = open.corners.iter().map(|corner| corner.vertex).collect();
+    facet.parts.push((ring, Fill::Cut(triangles)));
+    open.stage = Stage::Done;
+    true
 }

@@ -353,7 +353,7 @@ impl<'a> Search<'a> {
                 self.add_inside(&sides);
                 continue;
             }
-            let length = of.program.len() as u64;
+            let length = of.program.work() as u64;
             // A shorter program costs about as much as two evaluations, and half a slab seldom has one.
             let shorter = (count > 1).then(|| self.boxes.specialise(&of.program, lane)).flatten();
             self.spent += if count > 1 { BOX * length } else { 0 };
@@ -393,7 +393,7 @@ impl<'a> Search<'a> {
         let slices: Vec<&[Interval]> = columns.iter().map(Vec::as_slice).collect();
         let mut values = vec![Interval::EMPTY; parts.len()];
         self.boxes.eval(program, &slices, &mut values);
-        self.spent += BOX * parts.len() as u64 * (program.len() as u64 + OVERHEAD);
+        self.spent += BOX * parts.len() as u64 * (program.work() as u64 + OVERHEAD);
         values
     }
 
@@ -408,7 +408,7 @@ impl<'a> Search<'a> {
         let slices: Vec<&[f64]> = columns.iter().map(<[f64; 2]>::as_slice).collect();
         let mut values = [0.0; 2];
         self.points.eval(&program, &slices, &mut values);
-        self.spent += BOX * program.len() as u64;
+        self.spent += BOX * program.work() as u64;
         for (k, &value) in values.iter().enumerate() {
             let point: Vec<f64> = columns.iter().map(|column| column[k]).collect();
             self.learn(value, &point);
@@ -436,7 +436,7 @@ impl<'a> Search<'a> {
         let mut values = vec![0.0; count];
         let program = Arc::clone(&self.program);
         self.points.eval(&program, &slices, &mut values);
-        self.spent += BOX * program.len() as u64;
+        self.spent += BOX * program.work() as u64;
         for (i, &value) in values.iter().enumerate() {
             let point: Vec<f64> = columns.iter().map(|column| column[i]).collect();
             self.learn(value, &point);
@@ -482,7 +482,7 @@ impl<'a> Search<'a> {
             let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             let mut values = vec![0.0; places.len()];
             self.points.eval(&program, &slices, &mut values);
-            self.spent += BOX * program.len() as u64;
+            self.spent += BOX * program.work() as u64;
             let top =
                 (0..values.len()).filter(|&i| !values[i].is_nan()).max_by(|&i, &j| values[i].total_cmp(&values[j]));
             let Some(top) = top else { return false };

@@ -247,7 +247,7 @@ fn common_angles_take_the_common_way() {
 #[test]
 fn blocks_give_the_same_bits_as_single_numbers() {
     let mut random = Random(5);
-    for &op in UNARY {
+    for &op in UNARY.iter() {
         for length in [0, 1, 15, 16, 100] {
             let a: Vec<f64> = (0..length).map(|_| if random.once_in(9) { f64::NAN } else { random.any() }).collect();
             let narrow: Vec<f32> = a.iter().map(|&a| a as f32).collect();

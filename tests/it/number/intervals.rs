@@ -3,7 +3,7 @@
 use yont::number::interval::{next_down, next_up};
 use yont::number::{Binary, Interval, Ternary, Unary};
 
-use super::{BINARY, Random, TERNARY, UNARY};
+use super::{Random, UNARY};
 
 const INF: f64 = f64::INFINITY;
 
@@ -41,7 +41,7 @@ const BOXES: usize = 20_000;
 #[test]
 fn unary_ranges_hold_the_points() {
     let mut random = Random(10);
-    for &op in UNARY {
+    for &op in UNARY.iter() {
         for _ in 0..BOXES {
             let a = range(&mut random);
             let over = op.interval(a);
@@ -57,7 +57,7 @@ fn unary_ranges_hold_the_points() {
 #[test]
 fn binary_ranges_hold_the_points() {
     let mut random = Random(11);
-    for &op in BINARY {
+    for &op in Binary::ALL {
         for _ in 0..BOXES {
             let (a, b) = (range(&mut random), range(&mut random));
             let over = op.interval(a, b);
@@ -92,7 +92,7 @@ fn parameter(random: &mut Random, op: Ternary) -> Interval {
 #[test]
 fn ternary_ranges_hold_the_points() {
     let mut random = Random(12);
-    for &op in TERNARY {
+    for &op in Ternary::ALL {
         for _ in 0..2 * BOXES {
             let (a, b, c) = (range(&mut random), range(&mut random), parameter(&mut random, op));
             let over = op.interval(a, b, c);
@@ -254,7 +254,7 @@ fn neighbours_are_the_next_numbers() {
 #[test]
 fn single_precision_stays_within_the_widened_range() {
     let mut random = Random(15);
-    for &op in BINARY {
+    for &op in Binary::ALL {
         for _ in 0..2_000 {
             let x = random.within(-10.0, 10.0) as f32;
             let y = random.within(-10.0, 10.0) as f32;

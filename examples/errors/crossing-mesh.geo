@@ -1,0 +1,2 @@
+{ Two boxes in one file that go through each other. }
+gob_boxes = MESH("../data/crossing.obj");

@@ -1,0 +1,2 @@
+{ One side of the box was turned round. }
+gob_box = MESH("../data/turned.obj");

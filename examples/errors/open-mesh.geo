@@ -1,0 +1,2 @@
+{ One side of the box is missing. }
+gob_box = MESH("../data/open.obj");
