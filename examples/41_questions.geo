@@ -7,7 +7,7 @@
   Shows:    CURVE, CLOSEST, DISTANCE, INTERSECTS, VOLUME and BOUNDS within definitions.
   Run:      yont examples/41_questions.geo -o questions.png --object gob_seams,gob_lamp,gob_rods,gob_ring,gob_bar,gob_block
             yont measure examples/41_questions.geo --object gob_ring
-  Expected: two seams, one on each side, and a block right below the ring; the ring has the volume = 14.2122 }
+  Expected: the ring has the volume = 14.2122; it prints `2 seams, a gap of 0.1 below the ring` }
 
 gob_ring = pob_torus_y([0, 0, 0], 2, 0.6);
 gob_bar  = (0.4**2 - (x2 + 0.25*x1)**2 - (x3 - 0.2)**2) & 3.6 - ABS(x1) | pob_sphere([3.6, -0.9, 0.2], knob) | pob_sphere([-3.6, 0.9, 0.2], knob);
@@ -34,7 +34,8 @@ gob_block = pob_stone(top);
 { Two knobs are to weigh as much as the block }
 knob = (VOLUME(gob_block)*3/8/PI)**(1/3);
 
-PRINT "seams", LEN(seams), "distance of ring and lamp", DISTANCE(gob_ring, lamp), "gap", BOUNDS(gob_ring)[3, 1] - BOUNDS(gob_block)[3, 2];
+gap = BOUNDS(gob_ring)[3, 1] - BOUNDS(gob_block)[3, 2];
+PRINT LEN(seams), "seams, a gap of", ROUND(1000*gap)/1000, "below the ring";
 
 gob_ring  : COLOR = [0.75, 0.8, 0.86];
 gob_bar   : COLOR = [0.9, 0.75, 0.45];

@@ -15,6 +15,9 @@ use crate::vm::{Boxes, Gradients, Program};
 /// Units in the last place of the coordinates within which objects that touch cannot be told from objects that just miss each other.
 const ULPS: f64 = 4.0;
 
+/// Boxes for which the derivatives of a longer program than that are not made yet: intervals alone decide most questions soon.
+const PLAIN: usize = 300;
+const LONG: usize = 100;
 /// How far from the origin that is asked in a space without end.
 const NEAR: f64 = 1e3;
 
@@ -262,7 +265,7 @@ impl Search<'_> {
         for number in 0..self.conditions.all.len() {
             let asked = |part: &Part| part.open.iter().any(|open| open.number == number && open.is_smooth);
             let lanes: Vec<usize> = (0..parts.len()).filter(|&i| finite(&parts[i]) && asked(&parts[i])).collect();
-            if lanes.is_empty() {
+            if lanes.is_empty() || (self.count < PLAIN && self.conditions.all[number].value.len() > LONG) {
                 continue;
             }
             let Some(programs) = self.conditions.slopes(number) else { continue };
