@@ -217,6 +217,11 @@ impl<'a> Making<'a> {
         self.written.notes.push(Diagnostic::warning("empty-section", title));
     }
 
+    /// Whether the format holds no normals.
+    pub(super) fn is_bare(&self) -> bool {
+        matches!(self.output.format, Format::Stl | Format::ThreeMf)
+    }
+
     /// The checked boundary; none if it is empty.
     fn mesh(
         &mut self,
@@ -233,8 +238,7 @@ impl<'a> Making<'a> {
             return Ok((Some(mesh), line, report));
         }
         let (limits, interrupt, sharp) = (self.shop.limits, self.shop.interrupt, self.options.view.sharp);
-        // These formats hold no normals.
-        let is_bare = !sharp && matches!(self.output.format, Format::Stl | Format::ThreeMf);
+        let is_bare = !sharp && self.is_bare();
         let extraction = if is_bare {
             extract_bare(&shape, grid, limits, interrupt)
         } else {

@@ -8,7 +8,7 @@ use super::super::contour::{Contour, outlines};
 use super::super::grid::Grid;
 use super::super::marching::SurfaceError;
 use super::super::sampler::{Counters, Sampler};
-use super::patches::cell_along;
+use super::patches::Cells;
 use super::solve::{Local, Meeting, Scale, meet};
 use super::study::trace;
 use super::{Plain, Sharpened, leaf_of, survey};
@@ -62,11 +62,12 @@ fn sharpen(
     if Pieces::is_smooth(&shape.program) {
         return Ok(Sharpened::default());
     }
+    let cells = Cells::of(grid);
     let leaves = grid.leaves().iter().product();
     let (mut sides, mut wanted) = (vec![Vec::new(); leaves], vec![false; leaves]);
     for (number, line) in contour.lines.iter().enumerate() {
         for (i, (a, b)) in line.iter().zip(line.iter().cycle().skip(1)).enumerate() {
-            let along = |d: usize| cell_along(grid, d, 0.5 * (a[d] + b[d]));
+            let along = |d: usize| cells.along(d, 0.5 * (a[d] + b[d]));
             let leaf = leaf_of(grid, [along(0), along(1), 0]);
             sides[leaf].push((number, i));
             wanted[leaf] = true;
@@ -235,7 +236,7 @@ impl Corners<'_> {
             _ => return Err(Plain::Apart),
         };
         let is_far = self.scale.cells(middle, at).iter().any(|way| way.abs() > REACH);
-        if is_far || !self.scale.holds(at, self.grid.dimension()) {
+        if is_far || self.scale.beyond(at, self.grid.dimension()).is_some() {
             return Err(Plain::Outside);
         }
         let value = Local::values(&self.shape.program, &[at], &mut self.sampler)[0];

@@ -18,6 +18,7 @@ mod patches;
 mod sew;
 mod solve;
 mod study;
+mod torn;
 
 use std::ops::Range;
 
@@ -32,7 +33,7 @@ use crate::limits::Limits;
 use crate::vm::{Pieces, Precision, Program, Shape};
 use atlas::Atlas;
 pub use corners::outlines_as;
-use patches::patches;
+use patches::{Cells, by_leaves};
 use sew::Sewing;
 use solve::Scale;
 use study::{Facet, Student, Study};
@@ -102,8 +103,9 @@ impl Sharpened {
 }
 
 /// A leaf in which several pieces are live.
-struct Work {
-    patches: Range<usize>,
+struct Work<'a> {
+    /// Its triangles.
+    triangles: &'a [(usize, Range<usize>)],
     program: Program,
 }
 
@@ -141,29 +143,31 @@ pub fn sharpen(
     if extraction.own == 0 || Pieces::is_smooth(&shape.program) {
         return Ok(Sharpened::default());
     }
-    let mut patches = patches(&extraction.mesh, extraction.own, grid);
-    // By leaves; those of a leaf keep their order.
-    patches.sort_by_key(|patch| patch.leaf(grid));
-    let mut ranges = vec![0..0; grid.leaves().iter().product()];
-    let mut start = 0;
-    for same in patches.chunk_by(|a, b| a.leaf(grid) == b.leaf(grid)) {
-        ranges[same[0].leaf(grid)] = start..start + same.len();
-        start += same.len();
-    }
-    let wanted: Vec<bool> = ranges.iter().map(|range| !range.is_empty()).collect();
+    let cells = Cells::of(grid);
+    let runs = by_leaves(&extraction.mesh, extraction.own, grid, &cells);
+    let mut wanted = vec![false; grid.leaves().iter().product()];
+    runs.iter().for_each(|(leaf, _)| wanted[*leaf] = true);
     let (found, counters) = survey(&wanted, shape, grid, interrupt)?;
     extraction.report.counters.add(counters);
-    let works: Vec<Work> =
-        found.into_iter().map(|(leaf, program)| Work { patches: ranges[leaf].clone(), program }).collect();
+    let of_leaf = |leaf: usize| {
+        let first = runs.partition_point(|(other, _)| *other < leaf);
+        let last = runs.partition_point(|(other, _)| *other <= leaf);
+        &runs[first..last]
+    };
+    let works: Vec<Work<'_>> =
+        found.into_iter().map(|(leaf, program)| Work { triangles: of_leaf(leaf), program }).collect();
     let scale = Scale::of(grid);
     let mesh = &extraction.mesh;
     let sampler = || Sampler::new(shape).heeding(interrupt);
-    let student = || Student { mesh, grid, scale, shape, sampler: sampler(), tracer: Pieces::heeding(interrupt) };
+    let student = || {
+        let tracer = Pieces::heeding(interrupt);
+        Student { mesh, grid, cells: &cells, scale, shape, sampler: sampler(), tracer }
+    };
     let studied: Vec<(Option<Study>, Counters)> = works
         .par_iter()
         .map_init(student, |student, work| {
             interrupt.tick()?;
-            let study = student.study(work, &patches);
+            let study = student.study(work);
             Ok((study, student.sampler.take_counters()))
         })
         .collect::<Result<_, SurfaceError>>()?;
@@ -175,7 +179,7 @@ pub fn sharpen(
     let mut atlas = Atlas::new(sampler(), scale.near);
     atlas.gather(&mut studies);
     let facets: Vec<Facet> = studies.into_iter().flat_map(|study| study.facets).collect();
-    let (sewn, sharpened) = Sewing::new(extraction, &patches, facets, atlas, scale).sew(interrupt)?;
+    let (sewn, sharpened) = Sewing::new(extraction, facets, atlas, scale).sew(interrupt)?;
     if let Some((mesh, own)) = sewn {
         (extraction.mesh, extraction.own) = (mesh, own);
     }

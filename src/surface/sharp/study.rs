@@ -8,7 +8,7 @@ use super::super::grid::{Grid, LEAF};
 use super::super::mesh::Mesh;
 use super::super::sampler::Sampler;
 use super::fill::{Corner, Surfaces, cut};
-use super::patches::{Patch, polygons};
+use super::patches::{Cells, by_cells, polygons};
 use super::solve::{Local, Meeting, Scale, meet};
 use super::{Plain, Work};
 use crate::vm::{Pieces, Program, Shape};
@@ -39,10 +39,9 @@ pub(super) enum Fill {
 /// A polygon of a cell in which surfaces meet.
 #[derive(Clone, Debug)]
 pub(super) struct Facet {
-    /// The cell.
-    pub(super) patch: usize,
-    /// The triangles that fill it as long as it is plain.
-    pub(super) plain: Vec<[u32; 3]>,
+    pub(super) cell: [usize; 3],
+    /// The triangles of the mesh that fill it as long as it is plain.
+    pub(super) plain: Vec<usize>,
     /// The corners of its parts, and how they are filled.
     pub(super) parts: Vec<(Vec<u32>, Fill)>,
     /// New vertices on sides that lie in a face of the space: their ends, in the direction of the polygon.
@@ -78,6 +77,7 @@ pub(super) struct Study {
 pub(super) struct Student<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) grid: &'a Grid,
+    pub(super) cells: &'a Cells,
     pub(super) scale: Scale,
     pub(super) shape: &'a Shape,
     pub(super) sampler: Sampler,
@@ -103,6 +103,8 @@ struct Open {
     surfaces: Surfaces,
     stage: Stage,
     unseen: usize,
+    /// A place within the space from which to look for them in the plane across an axis.
+    aim: Option<(usize, [f64; 3])>,
 }
 
 /// A question: where these pieces meet near a place, in the plane across an axis if there is one.
@@ -180,10 +182,10 @@ impl Open {
 
 impl Student<'_> {
     /// Studies a leaf; none where there is but one piece.
-    pub(super) fn study(&mut self, work: &Work, patches: &[Patch]) -> Option<Study> {
+    pub(super) fn study(&mut self, work: &Work<'_>) -> Option<Study> {
         let mut vertices: Vec<u32> = Vec::new();
-        for patch in &patches[work.patches.clone()] {
-            vertices.extend(self.mesh.triangles[patch.triangles.clone()].iter().flatten());
+        for (_, range) in work.triangles {
+            vertices.extend(self.mesh.triangles[range.clone()].iter().flatten());
         }
         vertices.sort_unstable();
         vertices.dedup();
@@ -196,24 +198,18 @@ impl Student<'_> {
         let piece_of: FxHashMap<u32, usize> = vertices.into_iter().zip(which).collect();
         let mut study = Study { pieces, smooth: Vec::new(), on: Vec::new(), facets: Vec::new() };
         let mut rings = Vec::new();
-        for at in work.patches.clone() {
-            let triangles = &self.mesh.triangles[patches[at].triangles.clone()];
-            let first = piece_of[&triangles[0][0]];
-            if triangles.iter().flatten().all(|v| piece_of[v] == first) {
+        for (cell, triangles) in by_cells(self.mesh, work.triangles, self.cells) {
+            let corners = || triangles.iter().flat_map(|&t| self.mesh.triangles[t]);
+            let first = corners().next().map(|v| piece_of[&v]);
+            if corners().all(|v| Some(piece_of[&v]) == first) {
                 continue;
             }
-            for polygon in polygons(triangles) {
+            for polygon in polygons(self.mesh, &triangles) {
                 let first = piece_of[&polygon.corners[0]];
                 if polygon.corners.iter().any(|v| piece_of[v] != first) {
-                    rings.push((patches[at].cell, polygon.corners));
-                    let facet = Facet {
-                        patch: at,
-                        plain: polygon.triangles,
-                        parts: Vec::new(),
-                        sides: Vec::new(),
-                        failed: None,
-                    };
-                    study.facets.push(facet);
+                    rings.push((cell, polygon.corners));
+                    let (plain, parts, sides) = (polygon.triangles, Vec::new(), Vec::new());
+                    study.facets.push(Facet { cell, plain, parts, sides, failed: None });
                 }
             }
         }
@@ -291,12 +287,13 @@ impl Student<'_> {
                 let own = known[&(piece_of[&v], v)];
                 own.distance().is_nan() || own.distance() > 10.0 * self.scale.near
             });
-            let mut open = Open { facet, cell: *cell, corners, numbers, surfaces, stage: Stage::Pairs, unseen: 0 };
+            let mut open =
+                Open { facet, cell: *cell, corners, numbers, surfaces, stage: Stage::Pairs, unseen: 0, aim: None };
             if is_step {
                 study.facets[facet].failed = Some(Plain::Step);
                 open.stage = Stage::Done;
             } else {
-                settle(&mut open, study);
+                settle(&mut open, self.mesh, study);
             }
             opens.push(open);
         }
@@ -355,8 +352,8 @@ impl Student<'_> {
                 Stage::Corner(pieces) => questions.push(Question {
                     open: number,
                     pieces: pieces.clone(),
-                    axis: None,
-                    from: mean(&crossed),
+                    axis: open.aim.map(|(axis, _)| axis),
+                    from: open.aim.map_or_else(|| mean(&crossed), |(_, from)| from),
                     side: None,
                 }),
             }
@@ -387,7 +384,7 @@ impl Student<'_> {
     /// What follows from the answers.
     fn hear(
         &mut self,
-        work: &Work,
+        work: &Work<'_>,
         opens: &mut Vec<Open>,
         questions: Vec<Question>,
         answers: Vec<Meeting>,
@@ -422,7 +419,7 @@ impl Student<'_> {
                     None => fail(&mut opens[number], study, Plain::Apart),
                 },
                 Stage::Pairs => {
-                    if settle(&mut opens[number], study) {
+                    if settle(&mut opens[number], self.mesh, study) {
                         continue;
                     }
                     if let Some(parts) = self.parted(&opens[number], &study.pieces) {
@@ -441,7 +438,7 @@ impl Student<'_> {
             }
         }
         for open in &mut opens[asked..] {
-            settle(open, study);
+            settle(open, self.mesh, study);
         }
         self.judge(work, opens, candidates, study);
     }
@@ -465,7 +462,7 @@ impl Student<'_> {
     }
 
     /// Keeps the points that are on the boundary of the whole, and asks again with the surface that hides the others.
-    fn judge(&mut self, work: &Work, opens: &mut [Open], candidates: Vec<Candidate>, study: &mut Study) {
+    fn judge(&mut self, work: &Work<'_>, opens: &mut [Open], candidates: Vec<Candidate>, study: &mut Study) {
         let is_near = |candidate: &Candidate| self.is_in_leaf(opens[candidate.open].cell, candidate.at);
         let (within, beyond): (Vec<Candidate>, Vec<Candidate>) = candidates.into_iter().partition(is_near);
         let shape = self.shape;
@@ -476,8 +473,16 @@ impl Student<'_> {
                 let open = &mut opens[candidate.open];
                 let middle = open.middle(open.crossed().first().copied().unwrap_or(0));
                 let far = self.scale.cells(middle, candidate.at).iter().any(|way| way.abs() > REACH);
-                if far || !self.scale.holds(candidate.at, self.grid.dimension()) {
+                if far {
                     fail(open, study, Plain::Outside);
+                } else if let Some(aim) = self.scale.beyond(candidate.at, self.grid.dimension()) {
+                    // Where a crease leaves the space its last point is just within.
+                    if candidate.pieces.len() > 2 || open.aim.is_some() {
+                        fail(open, study, Plain::Outside);
+                        continue;
+                    }
+                    open.aim = Some(aim);
+                    open.stage = Stage::Corner(candidate.pieces);
                 } else if candidate.is_boundary(value, &self.scale) {
                     let ring = open.corners.iter().map(|corner| corner.vertex).collect();
                     study.facets[open.facet].parts.push((ring, Fill::Fan(candidate.site(candidate.at))));
@@ -545,6 +550,7 @@ impl Student<'_> {
             surfaces: open.surfaces.clone(),
             stage: Stage::Pairs,
             unseen: 0,
+            aim: None,
         };
         let rest = open.corners[j..].iter().chain(&open.corners[..=i]).cloned().collect();
         Some([part(open.corners[i..=j].to_vec()), part(rest)])
@@ -573,13 +579,14 @@ fn fail(open: &mut Open, study: &mut Study, reason: Plain) {
 }
 
 /// Whether a polygon needs no new vertex.
-fn settle(open: &mut Open, study: &mut Study) -> bool {
+fn settle(open: &mut Open, mesh: &Mesh, study: &mut Study) -> bool {
     if !open.crossed().is_empty() {
         return false;
     }
     let facet = &mut study.facets[open.facet];
     let is_whole = facet.plain.len() + 2 == open.corners.len();
-    let is_one = |triangle: &[u32; 3]| {
+    let is_one = |&t: &usize| {
+        let triangle = mesh.triangles[t];
         open.surfaces.common(open.corners.iter().filter(|corner| triangle.contains(&corner.vertex))) != 0
     };
     if is_whole && facet.plain.iter().all(is_one) {
