@@ -138,6 +138,17 @@ impl Program {
         self.regions.iter().any(|region| region.searches())
     }
 
+    /// The data that the whole is, if it is nothing else, and the values that it reads: inputs come first.
+    #[must_use]
+    pub(crate) fn sole_leaf(&self) -> Option<(&dyn crate::number::Leaf, &[Value])> {
+        match &self.operations[..] {
+            [Op::Leaf(leaf, arity, arguments)] => {
+                Some((&*self.leaves[*leaf as usize].0, &arguments[..usize::from(*arity)]))
+            }
+            _ => None,
+        }
+    }
+
     /// Number of operations.
     #[must_use]
     pub fn len(&self) -> usize {
