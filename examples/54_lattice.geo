@@ -8,6 +8,8 @@
             yont measure examples/54_lattice.geo --resolution 128
   Expected: a bowl of crossing rods on a foot, in one piece; Euler characteristic -94 }
 
+r_alpha = 1;
+
 { Distance from the axis, and the angle about it }
 rho = HYPOT(x1, x2);
 phi = ATAN2(x2, x1);
