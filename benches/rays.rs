@@ -17,6 +17,7 @@ use yont::picture::camera::{Camera, View};
 use yont::picture::extent::Extent;
 use yont::picture::raycast;
 use yont::picture::rays::{Aim, Pattern, Scene, cast_on, search_on};
+use yont::surface::marching::extract_bare;
 use yont::surface::star::guide::Solid;
 use yont::surface::star::mesh::{Space, over};
 use yont::surface::star::{Gauge, prove};
@@ -85,7 +86,7 @@ fn meshes() {
     let dodecahedron: Vec<[f64; 3]> = turned(1.0, golden).into_iter().map(|n| n.map(|c| c / 1.902)).collect();
     let mut icosahedron: Vec<[f64; 3]> = octahedron.clone();
     icosahedron.extend(turned(golden, 1.0 / golden).into_iter().map(|n| n.map(|c| c * 0.577)));
-    println!("star route and cubes, milliseconds for a mesh with normals");
+    println!("star route and cubes, milliseconds for a mesh without and with normals");
     for (name, normals) in [
         ("tetrahedron", tetrahedron),
         ("cube", cube),
@@ -108,26 +109,24 @@ fn meshes() {
             let vertices = guide.directions.len();
             let shape = Shape::new(program(&graph, node, Demand::Sign), 3, Vec::new());
             let limits = Limits::default();
-            let cubes = |n: usize| {
+            let cubes = |n: usize, normals: bool| {
                 let grid = Grid::new(&[[-reach, reach]; 3], n).expect("a grid");
-                extract(&shape, &grid, &limits, &interrupt).expect("a mesh").mesh
+                let make = if normals { extract } else { extract_bare };
+                make(&shape, &grid, &limits, &interrupt).expect("a mesh").mesh.positions.len()
             };
-            let few = cubes(64).positions.len();
+            let few = cubes(64, false);
             let n = (64.0 * (vertices as f64 / few as f64).sqrt()).round() as usize;
-            let [star, search] = medians(
-                || {
-                    let made = over(&gauge, &space, &guide, &interrupt).expect("a mesh");
-                    black_box(made.boundary.positions.len());
-                },
-                || {
-                    black_box(cubes(n).positions.len());
-                },
-            );
-            println!(
-                "{name:<13} p = {p}: {vertices} vertices {star:.2}, {} vertices of {n} cells {search:.2}: {:.1} times",
-                cubes(n).positions.len(),
-                search / star
-            );
+            print!("{name:<13} p = {p}: {vertices} vertices, {} of {n} cells", cubes(n, false));
+            for (normals, what) in [(false, "without"), (true, "with")] {
+                let [star, search] = medians(
+                    || drop(black_box(over(&gauge, &space, &guide, normals, &interrupt).expect("a mesh"))),
+                    || {
+                        black_box(cubes(n, normals));
+                    },
+                );
+                print!("; {what} {star:.2} and {search:.2}: {:.1} times", search / star);
+            }
+            println!();
         }
     }
 }
@@ -160,7 +159,14 @@ fn pictures() {
     }
 }
 
+/// `meshes` or `pictures` as an argument runs that alone.
 fn main() {
-    meshes();
-    pictures();
+    let only = std::env::args().nth(1).filter(|name| !name.starts_with('-'));
+    let wanted = |name: &str| only.as_deref().is_none_or(|only| only == name);
+    if wanted("meshes") {
+        meshes();
+    }
+    if wanted("pictures") {
+        pictures();
+    }
 }

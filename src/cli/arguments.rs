@@ -195,7 +195,7 @@ pub struct Fineness {
     /// The numbers that points are computed with; `single` is for previews
     #[arg(long, value_name = "NUMBERS", default_value = "double")]
     pub precision: Numbers,
-    /// Creases and corners as they are in meshes, not beveled (default off)
+    /// Creases and corners as they are in meshes and outlines, not beveled (default off)
     #[arg(long, value_name = "SWITCH", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
     pub sharp: Option<Switch>,
 }

@@ -94,7 +94,7 @@ pub fn without_effect(making: &Making, outputs: &[Output]) -> Vec<&'static str> 
         |output: &Output| moves(output) || matches!(output.target, crate::model::request::Target::Series { .. });
     /// An option, whether it was given, and which outputs heed it.
     type Heeded<'a> = (&'static str, bool, &'a dyn Fn(&Output) -> bool);
-    let edged = |output: &Output| output.format.kind() == Kind::Mesh;
+    let edged = |output: &Output| matches!(output.format.kind(), Kind::Mesh | Kind::Outlines);
     let options: [Heeded<'_>; 8] = [
         ("--sharp", making.fineness.sharp.is_some(), &edged),
         ("--size", look.size.is_some(), &seen),

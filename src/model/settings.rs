@@ -64,7 +64,7 @@ pub const SETTINGS: &[Setting] = &[
     Setting {
         name: "sharp",
         form: "1",
-        doc: "1 or 0: whether meshes have creases and corners as they are, not beveled",
+        doc: "1 or 0: whether meshes and outlines have creases and corners as they are, not beveled",
         takes: Takes::Number(|v, o| switch(v, &mut o.view.sharp)),
     },
     Setting {

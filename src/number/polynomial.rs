@@ -1,93 +1,169 @@
-//! Real roots of polynomials of degree four at most within an interval: in closed form up to degree two, above it between the extremes, which
-//! are the roots of the derivative. Finds each place where the sign changes, whatever the coefficients are.
+//! Real roots of polynomials of degree four at most within an interval, for several polynomials at once, coefficient by coefficient in rows:
+//! in closed form up to degree two, above it between the extremes, which are the roots of the derivative. Finds each place where the sign
+//! changes, whatever the coefficients are. Inlined into functions for each instruction set.
 
 /// Roots of a polynomial of degree 4 at most.
 pub const MOST: usize = 4;
 
-/// Steps of a root search; every second leaves half of the bracket or less.
+/// Steps of a root search; every eighth halves the bracket.
 const STEPS: usize = 128;
 
-/// The places between `lo` and `hi` where `c[0] + c[1] t + c[2] t^2 + ...` changes its sign, ascending; how many there are. A place where it
-/// touches zero may be among them.
-///
-/// # Panics
-/// If there are more than five coefficients.
-pub fn roots(c: &[f64], lo: f64, hi: f64, out: &mut [f64; MOST]) -> usize {
-    assert!(c.len() <= MOST + 1, "of degree four at most");
-    let degree = c.iter().rposition(|v| *v != 0.0).unwrap_or(0);
-    let mut count = 0;
-    let mut keep = |t: f64| {
-        if t > lo && t < hi && count < MOST {
-            out[count] = t;
-            count += 1;
-        }
-    };
-    match degree {
-        0 => {}
-        1 => keep(-c[0] / c[1]),
-        2 => {
-            if let Some((a, b)) = quadratic(c[0], c[1], c[2]) {
-                keep(a.min(b));
-                keep(a.max(b));
+/// Changes of this size end a root search.
+const CLOSE: f64 = 1e-15;
+
+/// What stands for a root that is not there.
+const NONE: f64 = f64::INFINITY;
+
+/// The places between `lo` and `hi` where each of the polynomials `c[0] + c[1] t + c[2] t^2 + ...` changes its sign, ascending but for the
+/// missing ones, which are infinite; how many rows there are. A place where it touches zero may be among them. Leading coefficients may
+/// vanish. Five coefficients at most: there are no roots of more.
+#[inline(always)]
+pub fn roots<const L: usize>(c: &[[f64; L]], lo: f64, hi: f64, out: &mut [[f64; L]; MOST]) -> usize {
+    match c {
+        [c, b] => {
+            for i in 0..L {
+                out[0][i] = within(-c[i] / b[i], lo, hi);
             }
+            1
         }
-        _ => {
-            let mut slope = [0.0; MOST];
-            (1..=degree).for_each(|k| slope[k - 1] = k as f64 * c[k]);
-            let mut turns = [0.0; MOST];
-            let found = roots(&slope[..degree], lo, hi, &mut turns);
-            let mut from = (lo, value(&c[..=degree], lo));
-            for &t in turns[..found].iter().chain([&hi]) {
-                let to = (t, value(&c[..=degree], t));
-                if (from.1 < 0.0) != (to.1 < 0.0) {
-                    keep(between(&c[..=degree], &slope[..degree], from, to));
-                }
-                from = to;
+        [c, b, a] => {
+            let roots = quadratic([c, b, a]);
+            for i in 0..L {
+                let [s, t] = [within(roots[0][i], lo, hi), within(roots[1][i], lo, hi)];
+                (out[0][i], out[1][i]) = if s < t { (s, t) } else { (t, s) };
             }
+            2
+        }
+        [_, b, c2, c3] => {
+            let stops = turns_of_cubic([b, c2, c3], lo, hi);
+            sections(c, &stops, lo, hi, out, false);
+            3
+        }
+        [_, b, c2, c3, c4] => {
+            let mut slope = [[0.0; L]; 4];
+            for i in 0..L {
+                (slope[0][i], slope[1][i], slope[2][i], slope[3][i]) = (b[i], 2.0 * c2[i], 3.0 * c3[i], 4.0 * c4[i]);
+            }
+            let mut stops = [[0.0; L]; MOST];
+            sections(&slope, &turns_of_cubic([&slope[1], &slope[2], &slope[3]], lo, hi), lo, hi, &mut stops, true);
+            sections(c, &stops[..3], lo, hi, out, false);
+            4
+        }
+        _ => 0,
+    }
+}
+
+/// The values of polynomials, each at its own place.
+#[inline(always)]
+pub fn value<const L: usize>(c: &[[f64; L]], t: &[f64; L]) -> [f64; L] {
+    let mut sum = [0.0; L];
+    for c in c.iter().rev() {
+        for i in 0..L {
+            sum[i] = sum[i] * t[i] + c[i];
         }
     }
-    count
+    sum
 }
 
-/// The value of `c[0] + c[1] t + ...`.
-#[inline]
-#[must_use]
-pub fn value(c: &[f64], t: f64) -> f64 {
-    c.iter().rev().fold(0.0, |sum, c| sum * t + c)
+#[inline(always)]
+fn within(t: f64, lo: f64, hi: f64) -> f64 {
+    if t > lo && t < hi { t } else { NONE }
 }
 
-/// The roots of `c + b t + a t^2`, without cancellation.
-fn quadratic(c: f64, b: f64, a: f64) -> Option<(f64, f64)> {
-    let inside = b * b - 4.0 * a * c;
-    if inside.is_nan() || inside < 0.0 {
-        return None;
+/// Where the slope of `c + b t + c2 t^2 + c3 t^3` vanishes, ascending, brought into the interval.
+#[inline(always)]
+fn turns_of_cubic<const L: usize>([b, c2, c3]: [&[f64; L]; 3], lo: f64, hi: f64) -> [[f64; L]; 2] {
+    let double = c2.map(|c| 2.0 * c);
+    let triple = c3.map(|c| 3.0 * c);
+    let [s, t] = quadratic([b, &double, &triple]);
+    let mut turns = [[hi; L]; 2];
+    for i in 0..L {
+        let [s, t] = [s[i], t[i]].map(|t| if t > lo && t < hi { t } else { hi });
+        (turns[0][i], turns[1][i]) = if s < t { (s, t) } else { (t, s) };
     }
-    let q = -0.5 * (b + inside.sqrt().copysign(b));
-    Some(if q == 0.0 { (0.0, 0.0) } else { (q / a, c / q) })
+    turns
 }
 
-/// The root between two places of different signs, where the polynomial is monotone: Newton's steps, halving where they lead astray.
-fn between(c: &[f64], slope: &[f64], from: (f64, f64), to: (f64, f64)) -> f64 {
-    let (mut lo, mut hi) = (from.0, to.0);
-    let low_sign = from.1 < 0.0;
-    let mut t = 0.5 * (lo + hi);
+/// The roots of `c + b t + a t^2`, without cancellation; not finite where there are none.
+#[inline(always)]
+fn quadratic<const L: usize>([c, b, a]: [&[f64; L]; 3]) -> [[f64; L]; 2] {
+    let mut roots = [[NONE; L]; 2];
+    for i in 0..L {
+        let q = -0.5 * (b[i] + (b[i] * b[i] - 4.0 * a[i] * c[i]).sqrt().copysign(b[i]));
+        (roots[0][i], roots[1][i]) = (q / a[i], c[i] / q);
+    }
+    roots
+}
+
+/// The roots between places at which a polynomial may turn, ascending and within the interval: one at most in each section, one row a
+/// section. Where there is none the row has the section's end if `fills`, else nothing.
+#[inline(always)]
+fn sections<const L: usize>(
+    c: &[[f64; L]],
+    stops: &[[f64; L]],
+    lo: f64,
+    hi: f64,
+    out: &mut [[f64; L]; MOST],
+    fills: bool,
+) {
+    let mut from = [lo; L];
+    let mut low = value(c, &from);
+    for (section, out) in out.iter_mut().enumerate().take(stops.len() + 1) {
+        let to = stops.get(section).copied().unwrap_or([hi; L]);
+        let high = value(c, &to);
+        let (mut end, mut sign, mut crossed) = (from, [1.0; L], false);
+        for i in 0..L {
+            let crosses = (low[i] < 0.0) != (high[i] < 0.0);
+            sign[i] = if low[i] < 0.0 { 1.0 } else { -1.0 };
+            // A section without a root is a bracket that is closed already.
+            end[i] = if crosses { to[i] } else { from[i] };
+            crossed |= crosses;
+        }
+        *out = if fills { to } else { [NONE; L] };
+        if crossed {
+            let root = between(c, &sign, from, end);
+            for i in 0..L {
+                let crosses = (low[i] < 0.0) != (high[i] < 0.0);
+                let root = if fills { root[i] } else { within(root[i], lo, hi) };
+                out[i] = if crosses { root } else { out[i] };
+            }
+        }
+        (from, low) = (to, high);
+    }
+}
+
+/// The roots in brackets within which the polynomials are monotone: Newton's steps, halving where they lead astray. `sign` is 1 where the
+/// lower end is negative.
+#[inline(always)]
+fn between<const L: usize>(c: &[[f64; L]], sign: &[f64; L], mut lo: [f64; L], mut hi: [f64; L]) -> [f64; L] {
+    let mut t = [0.0; L];
+    for i in 0..L {
+        t[i] = 0.5 * (lo[i] + hi[i]);
+    }
     for step in 0..STEPS {
-        let here = value(c, t);
-        if here == 0.0 {
-            return t;
+        let (mut here, mut slope) = ([0.0; L], [0.0; L]);
+        for c in c.iter().rev() {
+            for i in 0..L {
+                slope[i] = slope[i] * t[i] + here[i];
+                here[i] = here[i] * t[i] + c[i];
+            }
         }
-        if (here < 0.0) == low_sign {
-            lo = t;
-        } else {
-            hi = t;
+        let mut moved = 0.0_f64;
+        for i in 0..L {
+            let is_low = here[i] * sign[i] < 0.0;
+            lo[i] = if is_low { t[i] } else { lo[i] };
+            hi[i] = if is_low { hi[i] } else { t[i] };
+            let (newton, middle) = (t[i] - here[i] / slope[i], 0.5 * (lo[i] + hi[i]));
+            let follows = (newton > lo[i]) & (newton < hi[i]) & (step % 8 != 7);
+            let next = if follows { newton } else { middle };
+            let next = if here[i] == 0.0 { t[i] } else { next };
+            let change = if (lo[i] < middle) & (middle < hi[i]) { (next - t[i]).abs() } else { 0.0 };
+            moved = if change > moved { change } else { moved };
+            t[i] = next;
         }
-        let newton = t - here / value(slope, t);
-        let middle = 0.5 * (lo + hi);
-        let next = if newton > lo && newton < hi && step % 8 != 7 { newton } else { middle };
-        if next == t || !(lo < middle && middle < hi) || (next - t).abs() < 1e-15 {
-            return next;
+        if moved < CLOSE {
+            break;
         }
-        t = next;
     }
     t
 }

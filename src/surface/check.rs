@@ -89,6 +89,36 @@ pub fn check(mesh: &Mesh) -> Result<Topology, Fault> {
     Ok(Topology { vertices, edges, triangles, euler, components, genus: components as i64 - euler / 2 })
 }
 
+/// Checks the vertices of a mesh, and the triangles about some of them: what is left to check where the rest is as it was.
+///
+/// # Errors
+/// A [`Fault`] about one of those vertices.
+pub(super) fn check_about(mesh: &Mesh, is_about: &[bool]) -> Result<(), Fault> {
+    check_vertices(mesh)?;
+    let is_near = |t: &&[u32; 3]| t.iter().any(|&v| is_about.get(v as usize).is_none_or(|about| *about));
+    let near: Vec<[u32; 3]> = mesh.triangles.par_iter().filter(is_near).copied().collect();
+    let (mut numbers, mut vertices) = (vec![u32::MAX; mesh.positions.len()], Vec::new());
+    for &v in near.iter().flatten() {
+        let number = numbers.get_mut(v as usize).ok_or(Fault::NoSuchVertex(0))?;
+        if *number == u32::MAX {
+            *number = vertices.len() as u32;
+            vertices.push(v);
+        }
+    }
+    let part = Mesh {
+        positions: vertices.iter().map(|&v| mesh.positions[v as usize]).collect(),
+        normals: Vec::new(),
+        triangles: near.iter().map(|t| t.map(|v| numbers[v as usize])).collect(),
+    };
+    check_triangles(&part)?;
+    let corners = Corners::of(&part);
+    let about = vertices.par_iter().enumerate().filter(|(_, v)| is_about[**v as usize]);
+    match about.find_map_first(|(v, _)| corners.fault(&part, v)) {
+        Some(fault) => Err(fault),
+        None => Ok(()),
+    }
+}
+
 /// The bits of a coordinate in single precision; both zeros are one.
 fn single(position: [f64; 3]) -> [u32; 3] {
     position.map(|c| (c as f32 + 0.0).to_bits())

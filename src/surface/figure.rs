@@ -1,10 +1,11 @@
 //! Integrals over plane figures: area, length of the outlines, centroid, inertia, curvature, with error estimates from three resolutions.
 
-use super::contour::{Contour, outlines};
+use super::contour::Contour;
 use super::curvature;
 use super::estimate::{Bend, Estimate};
 use super::grid::Grid;
 use super::marching::{Report, SurfaceError};
+use super::sharp::outlines_as;
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::reuse::Digest;
@@ -35,22 +36,34 @@ pub struct Figure {
     pub report: Report,
 }
 
-/// Measures a 2-D shape on a grid, and on two coarser ones for the estimates.
+/// Measures a 2-D shape on a grid, and on two coarser ones for the estimates; with its corners if they are to be `sharp`.
 ///
 /// # Errors
 /// See [`SurfaceError`].
-pub fn measure(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Figure, SurfaceError> {
+pub fn measure(
+    shape: &Shape,
+    grid: &Grid,
+    sharp: bool,
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<Figure, SurfaceError> {
     let tell = |to: &mut Digest| {
         shape.tell(to);
-        to.shown(&(grid, limits.memory_bytes));
+        to.shown(&(grid, sharp, limits.memory_bytes));
     };
-    interrupt.whole("measures", tell, |_| size_of::<Figure>(), || measured(shape, grid, limits, interrupt))
+    interrupt.whole("measures", tell, |_| size_of::<Figure>(), || measured(shape, grid, sharp, limits, interrupt))
 }
 
-fn measured(shape: &Shape, grid: &Grid, limits: &Limits, interrupt: &Interrupt) -> Result<Figure, SurfaceError> {
+fn measured(
+    shape: &Shape,
+    grid: &Grid,
+    sharp: bool,
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<Figure, SurfaceError> {
     let mut all = Vec::new();
     for grid in grid.coarser() {
-        let found = outlines(shape, &grid, limits, interrupt)?;
+        let found = outlines_as(shape, &grid, sharp, limits, interrupt)?;
         let is_own = |p: [f64; 2]| (0..2).all(|d| p[d] > grid.lo[d] && p[d] < grid.hi[d]);
         let bend = curvature::of_lines(shape, &found.lines, grid.cell(), is_own, interrupt)?;
         all.push((Moments::of(&found), bend, found));

@@ -2,8 +2,11 @@
 //! running its operations on polynomials of the distance; a part may also be `A + B sqrt(Q)` with such polynomials, as a torus is. Says no to
 //! every other program.
 
+#[cfg(not(debug_assertions))]
+use multiversion::multiversion;
+
 use super::program::{Op, Program, Value};
-use crate::number::polynomial::{MOST, roots};
+use crate::number::polynomial::{self, MOST};
 use crate::number::{Binary, Ternary, Unary};
 
 /// Rays at a time.
@@ -76,8 +79,10 @@ pub struct Along {
 
 /// Storage for one thread.
 #[derive(Debug, Default)]
-pub struct Scratch {
-    rows: Vec<Row>,
+pub struct Rows {
+    values: Vec<Row>,
+    roots: Vec<Row>,
+    stack: Vec<Row>,
 }
 
 /// The rows of the axes: start and change of each.
@@ -153,70 +158,88 @@ impl Along {
         Some(())
     }
 
-    /// Where each ray is first inside, for the distances from -1 to 1 along `start + t change`: -1 where it is inside at once. At most
-    /// [`LANES`] rays.
-    ///
-    /// # Panics
-    /// If there are more rays, or `out` has another length.
-    pub fn first(&self, scratch: &mut Scratch, rays: &[([f64; 3], [f64; 3])], out: &mut [Option<f64>]) {
-        assert!(rays.len() <= LANES && rays.len() == out.len(), "a block of rays");
-        scratch.rows.resize(self.rows, [0.0; LANES]);
-        for (lane, (start, change)) in rays.iter().enumerate() {
+    /// Where each ray is first inside, for the distances from -1 to 1 along `start + t change`: -1 where it is inside at once, NaN where it
+    /// never is. At most [`LANES`] rays are read.
+    pub fn first(&self, rows: &mut Rows, rays: impl Iterator<Item = ([f64; 3], [f64; 3])>, out: &mut [f64; LANES]) {
+        rows.values.resize(self.rows, [0.0; LANES]);
+        for (lane, (start, change)) in rays.take(LANES).enumerate() {
             for axis in 0..3 {
-                scratch.rows[2 * axis][lane] = start[axis];
-                scratch.rows[2 * axis + 1][lane] = change[axis];
+                rows.values[2 * axis][lane] = start[axis];
+                rows.values[2 * axis + 1][lane] = change[axis];
             }
         }
-        self.steps.iter().for_each(|step| step.run(&mut scratch.rows));
-        for (lane, out) in out.iter_mut().enumerate() {
-            *out = self.solve(&scratch.rows, lane);
-        }
+        solve(self, rows, out);
     }
 
-    /// The first place inside on one ray: the parts' roots in their order, and what lies between them.
-    fn solve(&self, rows: &[Row], lane: usize) -> Option<f64> {
-        let mut places = [0.0; MOST * PARTS];
-        let mut count = 0;
-        for part in &self.parts {
-            let (mut c, mut found) = ([0.0; MOST + 1], [0.0; MOST]);
-            let degree = part.vanishes.degree;
-            (0..=degree).for_each(|k| c[k] = rows[part.vanishes.row + k][lane]);
-            let more = roots(&c[..=degree], -1.0, 1.0, &mut found);
-            places[count..count + more].copy_from_slice(&found[..more]);
-            count += more;
-        }
-        let places = &mut places[..count];
-        places.sort_unstable_by(f64::total_cmp);
-        let mut from = -1.0;
-        for to in places.iter().copied().chain([1.0]) {
-            if to > from && self.is_inside(rows, lane, 0.5 * (from + to)) {
-                return Some(from);
-            }
-            from = to;
-        }
-        None
-    }
-
-    fn is_inside(&self, rows: &[Row], lane: usize, t: f64) -> bool {
-        let at = |poly: Poly| (0..=poly.degree).rev().fold(0.0, |sum, k| sum * t + rows[poly.row + k][lane]);
-        let (mut stack, mut depth) = ([false; PARTS + 1], 0);
+    /// 1 where the object is inside, -1 elsewhere.
+    #[inline(always)]
+    fn inside(&self, rows: &[Row], stack: &mut Vec<Row>, t: &Row) -> Row {
+        let at = |poly: Poly| polynomial::value(&rows[poly.row..=poly.row + poly.degree], t);
+        stack.clear();
         for token in &self.tokens {
             match *token {
                 Token::Part(k) => {
                     let Kind { a, b } = self.parts[k].kind;
-                    let root = b.map_or(0.0, |(b, q)| at(b) * at(q).max(0.0).sqrt());
-                    stack[depth] = a.map_or(0.0, at) + root >= 0.0;
-                    depth += 1;
+                    let mut value = a.map_or([0.0; LANES], at);
+                    if let Some((b, q)) = b {
+                        let (b, q) = (at(b), at(q));
+                        for lane in 0..LANES {
+                            value[lane] += b[lane] * q[lane].max(0.0).sqrt();
+                        }
+                    }
+                    stack.push(value.map(|v| if v >= 0.0 { 1.0 } else { -1.0 }));
                 }
-                Token::Complement => stack[depth - 1] = !stack[depth - 1],
+                Token::Complement => {
+                    if let Some(top) = stack.last_mut() {
+                        top.iter_mut().for_each(|v| *v = -*v);
+                    }
+                }
                 Token::Union | Token::Intersection => {
-                    depth -= 1;
-                    let (a, b) = (stack[depth - 1], stack[depth]);
-                    stack[depth - 1] = if *token == Token::Union { a | b } else { a & b };
+                    let (Some(b), Some(a)) = (stack.pop(), stack.last_mut()) else { break };
+                    let is_union = *token == Token::Union;
+                    for (a, b) in a.iter_mut().zip(b) {
+                        *a = if (*a > b) == is_union { *a } else { b };
+                    }
                 }
             }
         }
-        stack[0]
+        stack.pop().unwrap_or([-1.0; LANES])
+    }
+}
+
+/// The first place inside on each ray: from one of the parts' roots to the next, what lies between them.
+#[cfg_attr(not(debug_assertions), multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2")))]
+fn solve(along: &Along, rows: &mut Rows, out: &mut Row) {
+    along.steps.iter().for_each(|step| step.run(&mut rows.values));
+    rows.roots.clear();
+    for Part { vanishes, .. } in &along.parts {
+        let mut found = [[0.0; LANES]; MOST];
+        let count =
+            polynomial::roots(&rows.values[vanishes.row..=vanishes.row + vanishes.degree], -1.0, 1.0, &mut found);
+        rows.roots.extend_from_slice(&found[..count]);
+    }
+    let mut from = [-1.0; LANES];
+    *out = [f64::NAN; LANES];
+    for _ in 0..=rows.roots.len() {
+        let mut to = [1.0; LANES];
+        for root in &rows.roots {
+            for lane in 0..LANES {
+                let is_next = (root[lane] > from[lane]) & (root[lane] < to[lane]);
+                to[lane] = if is_next { root[lane] } else { to[lane] };
+            }
+        }
+        let middle: Row = std::array::from_fn(|lane| 0.5 * (from[lane] + to[lane]));
+        let inside = along.inside(&rows.values, &mut rows.stack, &middle);
+        let mut open = false;
+        for lane in 0..LANES {
+            let is_first = (inside[lane] > 0.0) & out[lane].is_nan() & (from[lane] < to[lane]);
+            out[lane] = if is_first { from[lane] } else { out[lane] };
+            open |= out[lane].is_nan() & (to[lane] < 1.0);
+        }
+        if !open {
+            return;
+        }
+        from = to;
     }
 }
 
@@ -414,6 +437,7 @@ fn same(a: Kind, b: Kind) -> Option<Option<Poly>> {
 
 impl Step {
     /// Results lie behind what they are made of.
+    #[inline(always)]
     fn run(self, rows: &mut [Row]) {
         match self {
             Self::Constant(row, value) => rows[row] = [value; LANES],

@@ -107,6 +107,9 @@ fn is_choice(op: &Op) -> bool {
 pub struct Pieces {
     store: Store<Doubles>,
     live: Vec<bool>,
+    /// The branches that matter at a point, and what tells them from others.
+    branches: Vec<(usize, Branch)>,
+    key: Vec<u64>,
     renumbered: Vec<Value>,
     slots: SlotScratch,
 }
@@ -121,7 +124,8 @@ impl Pieces {
     /// An evaluator without storage yet.
     #[must_use]
     pub fn new() -> Self {
-        Self { store: Store::new(), live: Vec::new(), renumbered: Vec::new(), slots: SlotScratch::default() }
+        let (live, branches, key, renumbered) = Default::default();
+        Self { store: Store::new(), live, branches, key, renumbered, slots: SlotScratch::default() }
     }
 
     /// One whose loops and searches end once the interrupt is set, with pieces that mean nothing.
@@ -155,7 +159,7 @@ impl Pieces {
         let values = program.inputs.len() + program.operations.len();
         let kept = Program { slots: (0..values as u32).collect(), slot_count: values as u32, ..program.clone() };
         self.store.reserve(&kept);
-        let mut known = FxHashMap::default();
+        let mut known: FxHashMap<Vec<u64>, usize> = FxHashMap::default();
         for (block, out) in out.chunks_mut(Doubles::LANES).enumerate() {
             for (input, values) in points.iter().enumerate() {
                 let values = &values[block * Doubles::LANES..][..out.len()];
@@ -164,27 +168,32 @@ impl Pieces {
             self.store.live = out.len();
             Doubles::run(&kept, &mut self.store, out.len().next_multiple_of(16), &mut ());
             for (lane, piece) in out.iter_mut().enumerate() {
-                let (branches, key) = self.branches(&kept, lane);
-                *piece = *known.entry(key).or_insert_with(|| {
-                    let new = self.build(program, &branches);
-                    let same = |old: &Program| old.root == new.root && old.operations == new.operations;
-                    pieces.iter().position(same).unwrap_or_else(|| {
-                        pieces.push(new);
-                        pieces.len() - 1
-                    })
-                });
+                self.branch_at(&kept, lane);
+                *piece = match known.get(&self.key) {
+                    Some(&number) => number,
+                    None => {
+                        let new = self.build(program);
+                        let same = |old: &Program| old.root == new.root && old.operations == new.operations;
+                        let number = pieces.iter().position(same).unwrap_or_else(|| {
+                            pieces.push(new);
+                            pieces.len() - 1
+                        });
+                        known.insert(self.key.clone(), number);
+                        number
+                    }
+                };
             }
         }
     }
 
-    /// The branches that matter at the point of one lane, ascending by operation, and what tells them from others. Leaves `live` as
-    /// what the result is made of.
-    fn branches(&mut self, program: &Program, lane: usize) -> (Vec<(usize, Branch)>, Vec<u64>) {
+    /// Finds the branches that matter at the point of one lane, ascending by operation, and what the result is made of.
+    fn branch_at(&mut self, program: &Program, lane: usize) {
         let inputs = program.inputs.len();
         self.live.clear();
         self.live.resize(inputs + program.operations.len(), false);
         self.live[program.root as usize] = true;
-        let (mut branches, mut key) = (Vec::new(), Vec::new());
+        self.branches.clear();
+        self.key.clear();
         for (at, op) in program.operations.iter().enumerate().rev() {
             if !self.live[inputs + at] {
                 continue;
@@ -201,21 +210,20 @@ impl Pieces {
                 Branch::Number(_) => {}
             }
             if !matches!(taken, Branch::Smooth) {
-                branches.push((at, taken));
-                key.extend([at as u64, taken.bits()]);
+                self.branches.push((at, taken));
+                self.key.extend([at as u64, taken.bits()]);
             }
         }
-        branches.reverse();
-        (branches, key)
+        self.branches.reverse();
     }
 
     /// The program that takes these branches everywhere.
-    fn build(&mut self, program: &Program, branches: &[(usize, Branch)]) -> Program {
+    fn build(&mut self, program: &Program) -> Program {
         let inputs = program.inputs.len();
         self.renumbered.clear();
         self.renumbered.extend(0..inputs as Value);
         let mut operations = Vec::new();
-        let mut branches = branches.iter().peekable();
+        let mut branches = self.branches.iter().peekable();
         for (at, op) in program.operations.iter().enumerate() {
             let next = |operations: &Vec<Op>| (inputs + operations.len()) as Value;
             let mut number = next(&operations);

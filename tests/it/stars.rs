@@ -97,8 +97,8 @@ fn star_and_cube_routes_agree() {
         };
         let cubes = cubes.expect("a mesh").mesh;
         let meshes = [
-            over(&gauge, &space, &Solid::Icosahedron.guide(4), &interrupt).expect("a mesh").boundary,
-            over(&gauge, &space, &Solid::Cube.guide(5), &interrupt).expect("a mesh").boundary,
+            over(&gauge, &space, &Solid::Icosahedron.guide(4), true, &interrupt).expect("a mesh").boundary,
+            over(&gauge, &space, &Solid::Cube.guide(5), true, &interrupt).expect("a mesh").boundary,
             following(&gauge, &space, 0.05, 1 << 20, &interrupt).expect("a mesh").boundary,
         ];
         for mesh in &meshes {
@@ -139,7 +139,7 @@ fn following_a_ball() {
     assert_eq!(star.cut, [[false; 2]; 3]);
     assert_eq!(star.points as usize, star.boundary.positions.len(), "one evaluation for each vertex");
     let cut = Space { ranges: vec![[-1.1, 1.1], [-1.1, 1.1], [-1.1, 0.5]] };
-    let star = over(&gauge, &cut, &Solid::Sphere.guide(4), &interrupt).expect("a mesh");
+    let star = over(&gauge, &cut, &Solid::Sphere.guide(4), true, &interrupt).expect("a mesh");
     assert_eq!(star.cut, [[false; 2], [false; 2], [false, true]]);
     assert!(star.boundary.positions.iter().all(|p| p[2] <= 0.5 + 1e-12));
 }
@@ -252,10 +252,17 @@ fn roots_are_found_again() {
             });
             c = product;
         }
-        let mut found = [0.0; 4];
-        let count = roots(&c, -1.0, 1.0, &mut found);
+        // Beside it a polynomial turned over, one without roots and one of the first degree.
+        let rows: Vec<[f64; 4]> = c.iter().zip([1.0, 0.5, 0.0, 0.0, 0.0]).map(|(&c, k)| [c, -c, 1.0 + k, k]).collect();
+        let mut found = [[0.0; 4]; 4];
+        let count = roots(&rows, -1.0, 1.0, &mut found);
+        let lane = |lane: usize| -> Vec<f64> {
+            found[..count].iter().map(|row| row[lane]).filter(|root| root.is_finite()).collect()
+        };
+        let found = lane(0);
         let wanted: Vec<f64> = wanted.into_iter().filter(|r| (-1.0..1.0).contains(r)).collect();
-        assert_eq!(count, wanted.len(), "{c:?}: {wanted:?} and {found:?}");
+        assert_eq!(found.len(), wanted.len(), "{c:?}: {wanted:?} and {found:?}");
+        assert_eq!(found, lane(1), "{c:?}: turned over");
         for (a, b) in wanted.iter().zip(&found) {
             assert!((a - b).abs() < 1e-9, "{c:?}: {a} and {b}");
         }

@@ -120,7 +120,7 @@ fn measure_subject(session: &Session, view: &View, subject: &Subject) -> Result<
             let triangles = measures.topology.triangles;
             ((triangles > 0).then(|| Dimension::Solid(Box::new(measures), triangles)), report, is_settled)
         } else {
-            let figure = measure_figure(&shape, &grid, limits, interrupt).map_err(|e| unmeasured(&e.into()))?;
+            let figure = measure_figure(&shape, &grid, view.sharp, limits, interrupt).map_err(|e| unmeasured(&e.into()))?;
             let (report, is_settled) = (figure.report.clone(), figure.is_settled);
             ((figure.points > 0).then(|| Dimension::Plane(Box::new(figure))), report, is_settled)
         };

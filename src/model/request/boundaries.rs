@@ -10,12 +10,11 @@ use crate::picture::legend::Telling;
 use crate::picture::paint::Paint;
 use crate::picture::palette::Palette;
 use crate::surface::check::{Topology, check};
-use crate::surface::contour::outlines;
 use crate::surface::grid::Grid;
 use crate::surface::marching::{Extraction, Report, SurfaceError, extract_bare};
 use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
-use crate::surface::sharp::{Plain, Sharpened, extract_as};
+use crate::surface::sharp::{Plain, Sharpened, extract_as, outlines_as};
 use crate::vm::{Demand, Shape};
 
 use super::PictureOptions;
@@ -218,6 +217,11 @@ impl<'a> Making<'a> {
         self.written.notes.push(Diagnostic::warning("empty-section", title));
     }
 
+    /// Whether the format holds no normals.
+    pub(super) fn is_bare(&self) -> bool {
+        matches!(self.output.format, Format::Stl | Format::ThreeMf)
+    }
+
     /// The checked boundary; none if it is empty.
     fn mesh(
         &mut self,
@@ -234,8 +238,7 @@ impl<'a> Making<'a> {
             return Ok((Some(mesh), line, report));
         }
         let (limits, interrupt, sharp) = (self.shop.limits, self.shop.interrupt, self.options.view.sharp);
-        // These formats hold no normals.
-        let is_bare = !sharp && matches!(self.output.format, Format::Stl | Format::ThreeMf);
+        let is_bare = !sharp && self.is_bare();
         let extraction = if is_bare {
             extract_bare(&shape, grid, limits, interrupt)
         } else {
@@ -285,13 +288,20 @@ impl<'a> Making<'a> {
         let single = self.subject.is_single();
         for (n, moment) in self.moments().into_iter().enumerate() {
             let begun = Instant::now();
-            let mut slices = Vec::new();
+            let (mut slices, mut corners) = (Vec::new(), Sharpened::default());
             for (member, [r, g, b, _]) in members.iter().zip(&colours) {
                 let shape = self.subject.at(&member.shape, moment);
-                let found = match self.star_outline(member.node, &shape, &grid)? {
+                let sharp = self.options.view.sharp;
+                // Corners as they are come from the search, which knows where they lie.
+                let searched = sharp && self.options.view.route == Route::Auto;
+                let star = if searched { None } else { self.star_outline(member.node, &shape, &grid)? };
+                let found = match star {
                     Some(found) => found,
-                    None => outlines(&shape, &grid, self.shop.limits, self.shop.interrupt).map_err(unmade)?,
+                    None => outlines_as(&shape, &grid, sharp, self.shop.limits, self.shop.interrupt).map_err(unmade)?,
                 };
+                if let Some(sharpened) = &found.report.sharpened {
+                    corners.add(sharpened);
+                }
                 if !found.lines.is_empty() {
                     self.say(told::of_report(self.subject, &found.report));
                 }
@@ -303,7 +313,8 @@ impl<'a> Making<'a> {
                 return Err(empty(self.subject, Some(moment), None));
             }
             let full = slices.iter().filter(|slice| !slice.loops.is_empty()).count();
-            self.line(n, &format!("{count} outlines in {full} of {} sections", slices.len()), begun);
+            let sharp = if self.options.view.sharp { corners_line(&corners) } else { String::new() };
+            self.line(n, &format!("{count} outlines in {full} of {} sections{sharp}", slices.len()), begun);
             let name = self.subject.name.clone();
             self.put(n, &mut |out| svg::write(&slices, [x[0], y[0]], [x[1], y[1]], &name, &mut { out }))?;
         }
@@ -344,10 +355,33 @@ fn mesh_line(extraction: &Extraction, topology: &Topology) -> String {
 
 /// What became of the cells that creases cross.
 fn creases_line(sharpened: &Sharpened) -> String {
+    let why = why_plain(sharpened) + &torn_line(sharpened);
+    format!(", {} cells sharp, {} left plain{why}", sharpened.cells, sharpened.left())
+}
+
+/// What became of the corners of outlines.
+fn corners_line(sharpened: &Sharpened) -> String {
+    format!(
+        ", {} corners, {} left beveled{}{}",
+        sharpened.vertices,
+        sharpened.left(),
+        why_plain(sharpened),
+        torn_line(sharpened)
+    )
+}
+
+fn torn_line(sharpened: &Sharpened) -> String {
+    match sharpened.torn {
+        0 => String::new(),
+        1 => ", 1 torn-off tip put back".to_owned(),
+        torn => format!(", {torn} torn-off tips put back"),
+    }
+}
+
+fn why_plain(sharpened: &Sharpened) -> String {
     let reasons = Plain::ALL.iter().zip(sharpened.plain).filter(|(_, count)| *count > 0);
     let reasons: Vec<String> = reasons.map(|(reason, count)| format!("{count}: {}", reason.told())).collect();
-    let why = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) };
-    format!(", {} cells sharp, {} left plain{why}", sharpened.cells, sharpened.left())
+    if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) }
 }
 
 fn write_meshes(

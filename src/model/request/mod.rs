@@ -69,7 +69,7 @@ pub struct View {
     pub guide: Choice,
     /// The centre of the star route, a number for each axis. Wins over the script's.
     pub centre: Option<Vec<f64>>,
-    /// Whether creases and corners are in meshes as they are, not beveled.
+    /// Whether creases and corners are in meshes and outlines as they are, not beveled.
     pub sharp: bool,
 }
 

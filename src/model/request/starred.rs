@@ -41,7 +41,7 @@ impl Making<'_> {
         let phase = interrupt.phase("star");
         let gauge = &placed.star.gauge;
         let made = match &self.shop.guide {
-            Ready::Solid(guide) => over(gauge, &placed.space, guide, interrupt),
+            Ready::Solid(guide) => over(gauge, &placed.space, guide, !self.is_bare(), interrupt),
             Ready::Following => following(gauge, &placed.space, placed.length, placed.most, interrupt),
             Ready::Polygon(_) => return Err(wrong_guide("a polygon", "a plane figure")),
         };

@@ -11,12 +11,14 @@
 
 mod atlas;
 mod caps;
+mod corners;
 mod fill;
 mod net;
 mod patches;
 mod sew;
 mod solve;
 mod study;
+mod torn;
 
 use std::ops::Range;
 
@@ -30,7 +32,8 @@ use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::vm::{Pieces, Precision, Program, Shape};
 use atlas::Atlas;
-use patches::{Patch, patches};
+pub use corners::outlines_as;
+use patches::{Cells, by_leaves};
 use sew::Sewing;
 use solve::Scale;
 use study::{Facet, Student, Study};
@@ -79,9 +82,19 @@ pub struct Sharpened {
     pub plain: [usize; Plain::ALL.len()],
     /// New vertices.
     pub vertices: usize,
+    /// Parts that sampling tore off a tip, and that are gone since the tip is whole again.
+    pub torn: usize,
 }
 
 impl Sharpened {
+    /// Adds what became of others.
+    pub fn add(&mut self, other: &Self) {
+        self.cells += other.cells;
+        self.vertices += other.vertices;
+        self.torn += other.torn;
+        self.plain.iter_mut().zip(other.plain).for_each(|(own, other)| *own += other);
+    }
+
     /// Cells that stay plain.
     #[must_use]
     pub fn left(&self) -> usize {
@@ -90,8 +103,9 @@ impl Sharpened {
 }
 
 /// A leaf in which several pieces are live.
-struct Work {
-    patches: Range<usize>,
+struct Work<'a> {
+    /// Its triangles.
+    triangles: &'a [(usize, Range<usize>)],
     program: Program,
 }
 
@@ -129,20 +143,31 @@ pub fn sharpen(
     if extraction.own == 0 || Pieces::is_smooth(&shape.program) {
         return Ok(Sharpened::default());
     }
-    let mut patches = patches(&extraction.mesh, extraction.own, grid);
-    // By leaves; those of a leaf keep their order.
-    patches.sort_by_key(|patch| patch.leaf(grid));
-    let (works, counters) = survey(&patches, shape, grid, interrupt)?;
+    let cells = Cells::of(grid);
+    let runs = by_leaves(&extraction.mesh, extraction.own, grid, &cells);
+    let mut wanted = vec![false; grid.leaves().iter().product()];
+    runs.iter().for_each(|(leaf, _)| wanted[*leaf] = true);
+    let (found, counters) = survey(&wanted, shape, grid, interrupt)?;
     extraction.report.counters.add(counters);
+    let of_leaf = |leaf: usize| {
+        let first = runs.partition_point(|(other, _)| *other < leaf);
+        let last = runs.partition_point(|(other, _)| *other <= leaf);
+        &runs[first..last]
+    };
+    let works: Vec<Work<'_>> =
+        found.into_iter().map(|(leaf, program)| Work { triangles: of_leaf(leaf), program }).collect();
     let scale = Scale::of(grid);
     let mesh = &extraction.mesh;
     let sampler = || Sampler::new(shape).heeding(interrupt);
-    let student = || Student { mesh, grid, scale, shape, sampler: sampler(), tracer: Pieces::heeding(interrupt) };
+    let student = || {
+        let tracer = Pieces::heeding(interrupt);
+        Student { mesh, grid, cells: &cells, scale, shape, sampler: sampler(), tracer }
+    };
     let studied: Vec<(Option<Study>, Counters)> = works
         .par_iter()
         .map_init(student, |student, work| {
             interrupt.tick()?;
-            let study = student.study(work, &patches);
+            let study = student.study(work);
             Ok((study, student.sampler.take_counters()))
         })
         .collect::<Result<_, SurfaceError>>()?;
@@ -154,36 +179,37 @@ pub fn sharpen(
     let mut atlas = Atlas::new(sampler(), scale.near);
     atlas.gather(&mut studies);
     let facets: Vec<Facet> = studies.into_iter().flat_map(|study| study.facets).collect();
-    let (sewn, sharpened) = Sewing::new(extraction, &patches, facets, atlas, scale).sew(interrupt)?;
+    let (sewn, sharpened) = Sewing::new(extraction, facets, atlas, scale).sew(interrupt)?;
     if let Some((mesh, own)) = sewn {
         (extraction.mesh, extraction.own) = (mesh, own);
     }
     Ok(sharpened)
 }
 
-/// Finds the leaves in which pieces of the function are live and the mesh has triangles.
+/// Finds the leaves among those that are wanted in which pieces of the function are live, each with the program that is right in it.
 fn survey(
-    patches: &[Patch],
+    wanted: &[bool],
     shape: &Shape,
     grid: &Grid,
     interrupt: &Interrupt,
-) -> Result<(Vec<Work>, Counters), SurfaceError> {
-    let mut ranges = vec![0..0; grid.leaves().iter().product()];
-    let mut start = 0;
-    for same in patches.chunk_by(|a, b| a.leaf(grid) == b.leaf(grid)) {
-        ranges[same[0].leaf(grid)] = start..start + same.len();
-        start += same.len();
-    }
-    let collect = |_: &Block| Collecting { ranges: &ranges, leaves: grid.leaves(), works: Vec::new() };
+) -> Result<(Vec<(usize, Program)>, Counters), SurfaceError> {
+    let collect = |_: &Block| Collecting { wanted, leaves: grid.leaves(), found: Vec::new() };
     let Walk { visitors, counters } = walk(grid, shape, collect, interrupt)?;
-    Ok((visitors.into_iter().flat_map(|visitor| visitor.works).collect(), counters))
+    Ok((visitors.into_iter().flat_map(|visitor| visitor.found).collect(), counters))
 }
 
-/// Keeps the programs of leaves with triangles.
+/// The number of the leaf that owns a cell.
+fn leaf_of(grid: &Grid, cell: [usize; 3]) -> usize {
+    let [x, y, _] = grid.leaves();
+    let at = cell.map(|i| i / LEAF);
+    at[0] + x * (at[1] + y * at[2])
+}
+
+/// Keeps the programs of leaves that are wanted.
 struct Collecting<'a> {
-    ranges: &'a [Range<usize>],
+    wanted: &'a [bool],
     leaves: [usize; 3],
-    works: Vec<Work>,
+    found: Vec<(usize, Program)>,
 }
 
 impl Visitor for Collecting<'_> {
@@ -192,7 +218,7 @@ impl Visitor for Collecting<'_> {
         (from[2]..to[2]).any(|z| {
             (from[1]..to[1]).any(|y| {
                 let row = self.leaves[0] * (y + self.leaves[1] * z);
-                self.ranges[row + from[0]..row + to[0]].iter().any(|range| !range.is_empty())
+                self.wanted[row + from[0]..row + to[0]].contains(&true)
             })
         })
     }
@@ -201,9 +227,9 @@ impl Visitor for Collecting<'_> {
 
     fn leaf(&mut self, block: &Block, program: &Program, _sampler: &mut Sampler) {
         let at = block.from.map(|i| i / LEAF);
-        let patches = self.ranges[at[0] + self.leaves[0] * (at[1] + self.leaves[1] * at[2])].clone();
-        if !patches.is_empty() && Pieces::has_branches(program) {
-            self.works.push(Work { patches, program: program.clone() });
+        let leaf = at[0] + self.leaves[0] * (at[1] + self.leaves[1] * at[2]);
+        if self.wanted[leaf] && Pieces::has_branches(program) {
+            self.found.push((leaf, program.clone()));
         }
     }
 }

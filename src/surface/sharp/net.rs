@@ -36,7 +36,7 @@ pub(super) struct Net<'a> {
     surfaces: &'a [Vec<usize>],
     atlas: &'a mut Atlas,
     /// Whether all triangles about a vertex of the mesh are here.
-    complete: &'a [bool],
+    complete: Vec<bool>,
     /// Whether a new vertex may be drawn into another.
     is_free: &'a [bool],
     pub(super) pieces: Vec<Piece>,
@@ -54,7 +54,6 @@ impl<'a> Net<'a> {
     pub(super) fn new(
         mesh: &'a Mesh,
         (new, surfaces, is_free): (&'a [[f64; 3]], &'a [Vec<usize>], &'a [bool]),
-        complete: &'a [bool],
         atlas: &'a mut Atlas,
         (cell, near): (f64, f64),
     ) -> Self {
@@ -63,7 +62,7 @@ impl<'a> Net<'a> {
             new,
             surfaces,
             atlas,
-            complete,
+            complete: Vec::new(),
             is_free,
             pieces: Vec::new(),
             sides: FxHashMap::default(),
@@ -83,7 +82,8 @@ impl<'a> Net<'a> {
     }
 
     fn is_complete(&self, vertex: u32) -> bool {
-        self.new_number(vertex).map_or_else(|| self.complete[vertex as usize], |new| self.is_free[new])
+        self.new_number(vertex)
+            .map_or_else(|| self.complete.get(vertex as usize).is_some_and(|is| *is), |new| self.is_free[new])
     }
 
     /// Adds a triangle; what it costs counts for new ones only.
@@ -153,6 +153,9 @@ impl<'a> Net<'a> {
             let cost = if out < -1e-9 * size { -out } else { 0.0 };
             if is_on && cost < least.0 {
                 least = (cost, Some(surface));
+                if cost == 0.0 {
+                    break;
+                }
             }
         }
         least
@@ -199,15 +202,31 @@ impl<'a> Net<'a> {
         }
     }
 
-    /// Flips sides and draws vertices together as long as that mends something. The triangles that stay wrong.
-    pub(super) fn mend(&mut self) -> Vec<Piece> {
+    /// The polygons with triangles that are to be mended, or whose new vertex is as good as at another vertex.
+    pub(super) fn ailing(&self) -> Vec<u32> {
+        let is_ailing = |piece: &&Piece| {
+            let is_short = |a: u32, b: u32| self.new_number(a).is_some() && self.is_close(a, b);
+            let [a, b, c] = piece.corners;
+            piece.is_alive
+                && (piece.cost > 0.0 && !piece.is_bevel || is_short(a, b) || is_short(b, c) || is_short(a, c))
+        };
+        let mut all: Vec<u32> = self.pieces.iter().filter(is_ailing).filter_map(|piece| piece.facet).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// Flips sides and draws vertices together as long as that mends something; all triangles about vertices of the mesh that are
+    /// `complete` must be here. The triangles that stay wrong.
+    pub(super) fn mend(&mut self, complete: Vec<bool>) -> Vec<Piece> {
+        self.complete = complete;
         self.draw_close();
         for _ in 0..PASSES {
             let wrong = self.wrong();
             let mut is_better = false;
             for &number in &wrong {
                 if self.is_wrong(number) {
-                    is_better |= self.best_flip(number) || self.best_draw(number);
+                    is_better |= self.improve(number);
                 }
             }
             if !is_better {
@@ -233,7 +252,22 @@ impl<'a> Net<'a> {
         (new.map(|piece| piece.corners).collect(), gone.collect())
     }
 
-    fn best_flip(&mut self, number: u32) -> bool {
+    /// Does whatever gains most of what can be done about a triangle. Whether anything can.
+    fn improve(&mut self, number: u32) -> bool {
+        let (flip, draw) = (self.best_flip(number), self.best_draw(number));
+        let least = 1e-9 * self.unit;
+        match (flip.filter(|flip| flip.0 > least), draw.filter(|draw| draw.0 > least)) {
+            // A flip that gains as much leaves all vertices.
+            (Some((gain, other, corners)), draw) if draw.is_none_or(|draw| draw.0 <= 1.001 * gain) => {
+                self.flip(number, other, corners);
+            }
+            (_, Some((_, from, to))) => self.draw(from, to),
+            _ => return false,
+        }
+        true
+    }
+
+    fn best_flip(&mut self, number: u32) -> Option<(f64, u32, [u32; 4])> {
         let piece = self.pieces[number as usize];
         let mut best: Option<(f64, u32, [u32; 4])> = None;
         for k in 0..3 {
@@ -245,31 +279,25 @@ impl<'a> Net<'a> {
             }
             let before = piece.cost + self.pieces[other as usize].cost;
             let hints = [piece.surface, self.pieces[other as usize].surface];
-            let after = self.cost([c, a, d], &hints).0 + self.cost([c, d, b], &hints).0;
-            let gain = before - after;
-            if gain > 1e-9 * self.unit && best.is_none_or(|(most, ..)| gain > most) {
+            let gain = before - self.cost([c, a, d], &hints).0 - self.cost([c, d, b], &hints).0;
+            if best.is_none_or(|(most, ..)| gain > most) {
                 best = Some((gain, other, [a, b, c, d]));
             }
         }
-        let Some((_, other, corners)) = best else { return false };
-        self.flip(number, other, corners);
-        true
+        best
     }
 
-    fn best_draw(&mut self, number: u32) -> bool {
-        let piece = self.pieces[number as usize];
+    fn best_draw(&mut self, number: u32) -> Option<(f64, u32, u32)> {
         let mut best: Option<(f64, u32, u32)> = None;
-        for from in piece.corners {
+        for from in self.pieces[number as usize].corners {
             for to in self.neighbours(from) {
                 let Some(gain) = self.gain(from, to) else { continue };
-                if gain > 1e-9 * self.unit && best.is_none_or(|(most, ..)| gain > most) {
+                if best.is_none_or(|(most, ..)| gain > most) {
                     best = Some((gain, from, to));
                 }
             }
         }
-        let Some((_, from, to)) = best else { return false };
-        self.draw(from, to);
-        true
+        best
     }
 
     /// The triangles about a new vertex.
@@ -332,15 +360,20 @@ impl<'a> Net<'a> {
     fn draw_close(&mut self) {
         for new in 0..self.new.len() {
             let from = (self.mesh.positions.len() + new) as u32;
-            for to in self.neighbours(from) {
-                let way = minus(self.place(from), self.place(to));
-                if dot(way, way) <= self.close * self.close
-                    && self.gain(from, to).is_some_and(|gain| gain >= -1e-9 * self.unit)
-                {
+            let star = self.star(from);
+            let about = star.iter().flat_map(|&number| self.pieces[number as usize].corners);
+            let close: Vec<u32> = about.filter(|&to| to != from && self.is_close(from, to)).collect();
+            for to in close {
+                if self.gain(from, to).is_some_and(|gain| gain >= -1e-9 * self.unit) {
                     self.draw(from, to);
                     break;
                 }
             }
         }
+    }
+
+    fn is_close(&self, a: u32, b: u32) -> bool {
+        let way = minus(self.place(a), self.place(b));
+        dot(way, way) <= self.close * self.close
     }
 }

@@ -98,10 +98,15 @@ impl Scale {
         std::array::from_fn(|d| (to[d] - from[d]) / self.cell[d])
     }
 
-    /// Whether a place is within the space, and not on its faces.
-    pub(super) fn holds(&self, place: [f64; 3], dimension: usize) -> bool {
-        (0..dimension)
-            .all(|d| place[d] > self.space[0][d] + self.margin[d] && place[d] < self.space[1][d] - self.margin[d])
+    /// Of a place that is not within the space: an axis along which it is not, and the place moved within.
+    pub(super) fn beyond(&self, place: [f64; 3], dimension: usize) -> Option<(usize, [f64; 3])> {
+        (0..dimension).find_map(|d| {
+            let inner = [self.space[0][d] + self.margin[d], self.space[1][d] - self.margin[d]];
+            let is_within = place[d] > inner[0] && place[d] < inner[1];
+            let mut moved = place;
+            moved[d] = moved[d].clamp(self.space[0][d] + 0.05 * self.cell[d], self.space[1][d] - 0.05 * self.cell[d]);
+            (!is_within).then_some((d, moved))
+        })
     }
 
     /// A coordinate of a new vertex in a face of the space, kept off the ends of the range of its cell, on whichever side it is.
@@ -136,7 +141,7 @@ pub(super) fn meet(
     let mut found = vec![Meeting::Nowhere; from.len()];
     let mut places = from.to_vec();
     let mut open: Vec<usize> = (0..from.len()).collect();
-    let mut last = vec![f64::INFINITY; from.len()];
+    let narrowest = scale.cell.iter().fold(f64::INFINITY, |m: f64, &c| m.min(c));
     for _ in 0..STEPS {
         let at: Vec<[f64; 3]> = open.iter().map(|&i| places[i]).collect();
         let locals: Vec<Vec<Local>> = pieces.iter().map(|piece| Local::all(piece, &at, sampler)).collect();
@@ -145,15 +150,6 @@ pub(super) fn meet(
             let here: Vec<Local> = locals.iter().map(|of| of[k]).collect();
             let resolved = 8.0 * f64::EPSILON * places[i].iter().fold(0.0_f64, |m, c| m.max(c.abs()));
             let is_smooth = pieces.len() == 2 && dot(here[0].normal(), here[1].normal()) > SMOOTH;
-            // The last step was so short that this is the place.
-            if last[i] <= CONVERGED.max(resolved / scale.cell.iter().fold(f64::INFINITY, |m: f64, &c| m.min(c))) {
-                if is_smooth {
-                    found[i] = Meeting::Smooth;
-                } else if here.iter().all(|local| local.distance() <= 1e-3 * scale.near + resolved) {
-                    found[i] = Meeting::At(places[i], here);
-                }
-                continue;
-            }
             // Where surfaces touch the way to the line is long, and the line does not matter.
             if is_smooth && here.iter().all(|local| local.distance() <= scale.near) {
                 found[i] = Meeting::Smooth;
@@ -161,12 +157,19 @@ pub(super) fn meet(
             }
             let Some(step) = least_squares(&here, axis, scale) else { continue };
             let length = dot(step, step).sqrt();
+            if length <= CONVERGED.max(resolved / narrowest) {
+                if is_smooth {
+                    found[i] = Meeting::Smooth;
+                } else if here.iter().all(|local| local.distance() <= 1e-3 * scale.near + resolved) {
+                    found[i] = Meeting::At(places[i], here);
+                }
+                continue;
+            }
             let shorter = (1.0 / length).min(1.0);
             places[i] = std::array::from_fn(|d| places[i][d] + shorter * step[d] * scale.cell[d]);
             if scale.cells(from[i], places[i]).iter().any(|way| way.abs() > RANGE) {
                 continue;
             }
-            last[i] = length;
             next.push(i);
         }
         open = next;

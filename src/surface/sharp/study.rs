@@ -8,7 +8,7 @@ use super::super::grid::{Grid, LEAF};
 use super::super::mesh::Mesh;
 use super::super::sampler::Sampler;
 use super::fill::{Corner, Surfaces, cut};
-use super::patches::{Patch, polygons};
+use super::patches::{Cells, by_cells, polygons};
 use super::solve::{Local, Meeting, Scale, meet};
 use super::{Plain, Work};
 use crate::vm::{Pieces, Program, Shape};
@@ -39,10 +39,9 @@ pub(super) enum Fill {
 /// A polygon of a cell in which surfaces meet.
 #[derive(Clone, Debug)]
 pub(super) struct Facet {
-    /// The cell.
-    pub(super) patch: usize,
-    /// The triangles that fill it as long as it is plain.
-    pub(super) plain: Vec<[u32; 3]>,
+    pub(super) cell: [usize; 3],
+    /// The triangles of the mesh that fill it as long as it is plain.
+    pub(super) plain: Vec<usize>,
     /// The corners of its parts, and how they are filled.
     pub(super) parts: Vec<(Vec<u32>, Fill)>,
     /// New vertices on sides that lie in a face of the space: their ends, in the direction of the polygon.
@@ -78,6 +77,7 @@ pub(super) struct Study {
 pub(super) struct Student<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) grid: &'a Grid,
+    pub(super) cells: &'a Cells,
     pub(super) scale: Scale,
     pub(super) shape: &'a Shape,
     pub(super) sampler: Sampler,
@@ -103,6 +103,8 @@ struct Open {
     surfaces: Surfaces,
     stage: Stage,
     unseen: usize,
+    /// A place within the space from which to look for them in the plane across an axis.
+    aim: Option<(usize, [f64; 3])>,
 }
 
 /// A question: where these pieces meet near a place, in the plane across an axis if there is one.
@@ -180,40 +182,34 @@ impl Open {
 
 impl Student<'_> {
     /// Studies a leaf; none where there is but one piece.
-    pub(super) fn study(&mut self, work: &Work, patches: &[Patch]) -> Option<Study> {
+    pub(super) fn study(&mut self, work: &Work<'_>) -> Option<Study> {
         let mut vertices: Vec<u32> = Vec::new();
-        for patch in &patches[work.patches.clone()] {
-            vertices.extend(self.mesh.triangles[patch.triangles.clone()].iter().flatten());
+        for (_, range) in work.triangles {
+            vertices.extend(self.mesh.triangles[range.clone()].iter().flatten());
         }
         vertices.sort_unstable();
         vertices.dedup();
         let places: Vec<[f64; 3]> = vertices.iter().map(|&v| self.mesh.positions[v as usize]).collect();
         let mut pieces = Vec::new();
-        let which = self.trace(&work.program, &places, &mut pieces);
+        let which = trace(&mut self.tracer, self.shape, &work.program, &places, &mut pieces);
         if pieces.len() < 2 {
             return None;
         }
         let piece_of: FxHashMap<u32, usize> = vertices.into_iter().zip(which).collect();
         let mut study = Study { pieces, smooth: Vec::new(), on: Vec::new(), facets: Vec::new() };
         let mut rings = Vec::new();
-        for at in work.patches.clone() {
-            let triangles = &self.mesh.triangles[patches[at].triangles.clone()];
-            let first = piece_of[&triangles[0][0]];
-            if triangles.iter().flatten().all(|v| piece_of[v] == first) {
+        for (cell, triangles) in by_cells(self.mesh, work.triangles, self.cells) {
+            let corners = || triangles.iter().flat_map(|&t| self.mesh.triangles[t]);
+            let first = corners().next().map(|v| piece_of[&v]);
+            if corners().all(|v| Some(piece_of[&v]) == first) {
                 continue;
             }
-            for polygon in polygons(triangles) {
+            for polygon in polygons(self.mesh, &triangles) {
                 let first = piece_of[&polygon.corners[0]];
                 if polygon.corners.iter().any(|v| piece_of[v] != first) {
-                    rings.push((patches[at].cell, polygon.corners));
-                    let facet = Facet {
-                        patch: at,
-                        plain: polygon.triangles,
-                        parts: Vec::new(),
-                        sides: Vec::new(),
-                        failed: None,
-                    };
-                    study.facets.push(facet);
+                    rings.push((cell, polygon.corners));
+                    let (plain, parts, sides) = (polygon.triangles, Vec::new(), Vec::new());
+                    study.facets.push(Facet { cell, plain, parts, sides, failed: None });
                 }
             }
         }
@@ -231,17 +227,6 @@ impl Student<'_> {
         }
         study.facets.retain(|facet| facet.failed.is_some() || !facet.parts.is_empty());
         Some(study)
-    }
-
-    /// The piece of the program at each place.
-    fn trace(&mut self, program: &Program, places: &[[f64; 3]], pieces: &mut Vec<Program>) -> Vec<usize> {
-        let mut columns: Vec<Vec<f64>> =
-            (0..self.shape.dimension).map(|d| places.iter().map(|p| p[d]).collect()).collect();
-        columns.extend(self.shape.fixed.iter().map(|&value| vec![value; places.len()]));
-        let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let mut which = vec![0; places.len()];
-        self.tracer.at(program, &slices, pieces, &mut which);
-        which
     }
 
     /// The polygons with what is known of their corners.
@@ -302,12 +287,13 @@ impl Student<'_> {
                 let own = known[&(piece_of[&v], v)];
                 own.distance().is_nan() || own.distance() > 10.0 * self.scale.near
             });
-            let mut open = Open { facet, cell: *cell, corners, numbers, surfaces, stage: Stage::Pairs, unseen: 0 };
+            let mut open =
+                Open { facet, cell: *cell, corners, numbers, surfaces, stage: Stage::Pairs, unseen: 0, aim: None };
             if is_step {
                 study.facets[facet].failed = Some(Plain::Step);
                 open.stage = Stage::Done;
             } else {
-                settle(&mut open, study);
+                settle(&mut open, self.mesh, study);
             }
             opens.push(open);
         }
@@ -366,8 +352,8 @@ impl Student<'_> {
                 Stage::Corner(pieces) => questions.push(Question {
                     open: number,
                     pieces: pieces.clone(),
-                    axis: None,
-                    from: mean(&crossed),
+                    axis: open.aim.map(|(axis, _)| axis),
+                    from: open.aim.map_or_else(|| mean(&crossed), |(_, from)| from),
                     side: None,
                 }),
             }
@@ -398,7 +384,7 @@ impl Student<'_> {
     /// What follows from the answers.
     fn hear(
         &mut self,
-        work: &Work,
+        work: &Work<'_>,
         opens: &mut Vec<Open>,
         questions: Vec<Question>,
         answers: Vec<Meeting>,
@@ -433,7 +419,7 @@ impl Student<'_> {
                     None => fail(&mut opens[number], study, Plain::Apart),
                 },
                 Stage::Pairs => {
-                    if settle(&mut opens[number], study) {
+                    if settle(&mut opens[number], self.mesh, study) {
                         continue;
                     }
                     if let Some(parts) = self.parted(&opens[number], &study.pieces) {
@@ -452,7 +438,7 @@ impl Student<'_> {
             }
         }
         for open in &mut opens[asked..] {
-            settle(open, study);
+            settle(open, self.mesh, study);
         }
         self.judge(work, opens, candidates, study);
     }
@@ -476,7 +462,7 @@ impl Student<'_> {
     }
 
     /// Keeps the points that are on the boundary of the whole, and asks again with the surface that hides the others.
-    fn judge(&mut self, work: &Work, opens: &mut [Open], candidates: Vec<Candidate>, study: &mut Study) {
+    fn judge(&mut self, work: &Work<'_>, opens: &mut [Open], candidates: Vec<Candidate>, study: &mut Study) {
         let is_near = |candidate: &Candidate| self.is_in_leaf(opens[candidate.open].cell, candidate.at);
         let (within, beyond): (Vec<Candidate>, Vec<Candidate>) = candidates.into_iter().partition(is_near);
         let shape = self.shape;
@@ -487,8 +473,16 @@ impl Student<'_> {
                 let open = &mut opens[candidate.open];
                 let middle = open.middle(open.crossed().first().copied().unwrap_or(0));
                 let far = self.scale.cells(middle, candidate.at).iter().any(|way| way.abs() > REACH);
-                if far || !self.scale.holds(candidate.at, self.grid.dimension()) {
+                if far {
                     fail(open, study, Plain::Outside);
+                } else if let Some(aim) = self.scale.beyond(candidate.at, self.grid.dimension()) {
+                    // Where a crease leaves the space its last point is just within.
+                    if candidate.pieces.len() > 2 || open.aim.is_some() {
+                        fail(open, study, Plain::Outside);
+                        continue;
+                    }
+                    open.aim = Some(aim);
+                    open.stage = Stage::Corner(candidate.pieces);
                 } else if candidate.is_boundary(value, &self.scale) {
                     let ring = open.corners.iter().map(|corner| corner.vertex).collect();
                     study.facets[open.facet].parts.push((ring, Fill::Fan(candidate.site(candidate.at))));
@@ -496,7 +490,7 @@ impl Student<'_> {
                 } else if value.is_nan() || open.unseen == UNSEEN || !Pieces::has_branches(program) {
                     fail(open, study, Plain::Hidden);
                 } else {
-                    let unseen = self.trace(program, &[candidate.at], &mut study.pieces)[0];
+                    let unseen = trace(&mut self.tracer, shape, program, &[candidate.at], &mut study.pieces)[0];
                     let mut pieces = candidate.pieces;
                     if pieces.contains(&unseen) {
                         fail(open, study, Plain::Hidden);
@@ -556,10 +550,27 @@ impl Student<'_> {
             surfaces: open.surfaces.clone(),
             stage: Stage::Pairs,
             unseen: 0,
+            aim: None,
         };
         let rest = open.corners[j..].iter().chain(&open.corners[..=i]).cloned().collect();
         Some([part(open.corners[i..=j].to_vec()), part(rest)])
     }
+}
+
+/// The piece of a program at each place.
+pub(super) fn trace(
+    tracer: &mut Pieces,
+    shape: &Shape,
+    program: &Program,
+    places: &[[f64; 3]],
+    pieces: &mut Vec<Program>,
+) -> Vec<usize> {
+    let mut columns: Vec<Vec<f64>> = (0..shape.dimension).map(|d| places.iter().map(|p| p[d]).collect()).collect();
+    columns.extend(shape.fixed.iter().map(|&value| vec![value; places.len()]));
+    let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let mut which = vec![0; places.len()];
+    tracer.at(program, &slices, pieces, &mut which);
+    which
 }
 
 fn fail(open: &mut Open, study: &mut Study, reason: Plain) {
@@ -568,13 +579,14 @@ fn fail(open: &mut Open, study: &mut Study, reason: Plain) {
 }
 
 /// Whether a polygon needs no new vertex.
-fn settle(open: &mut Open, study: &mut Study) -> bool {
+fn settle(open: &mut Open, mesh: &Mesh, study: &mut Study) -> bool {
     if !open.crossed().is_empty() {
         return false;
     }
     let facet = &mut study.facets[open.facet];
     let is_whole = facet.plain.len() + 2 == open.corners.len();
-    let is_one = |triangle: &[u32; 3]| {
+    let is_one = |&t: &usize| {
+        let triangle = mesh.triangles[t];
         open.surfaces.common(open.corners.iter().filter(|corner| triangle.contains(&corner.vertex))) != 0
     };
     if is_whole && facet.plain.iter().all(is_one) {

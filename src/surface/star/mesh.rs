@@ -8,7 +8,7 @@ use super::Gauge;
 use super::guide::{Guide, Solid};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::mesh::{Mesh, dot, minus};
-use crate::vm::Gradients;
+use crate::vm::{Gradients, Points};
 
 /// Directions that are evaluated together.
 const BATCH: usize = 2048;
@@ -70,15 +70,19 @@ impl<const N: usize> Vertices<N> {
         gauge: &Gauge,
         space: &Space,
         directions: &[[f64; N]],
+        normals: bool,
         interrupt: &Interrupt,
     ) -> Result<(), MeshError> {
+        let start = || (Points::<f64>::new(), Gradients::new());
         let parts: Vec<Self> = directions
             .par_chunks(BATCH)
-            .map_init(Gradients::new, |gradients, chunk| {
+            .map_init(start, |(points, gradients), chunk| {
                 interrupt.tick()?;
-                batch(gauge, space, chunk, gradients)
+                batch(gauge, space, chunk, points, normals.then_some(gradients))
             })
             .collect::<Result<_, MeshError>>()?;
+        self.positions.reserve(directions.len());
+        self.normals.reserve(if normals { directions.len() } else { 0 });
         for part in parts {
             self.positions.extend_from_slice(&part.positions);
             self.normals.extend_from_slice(&part.normals);
@@ -91,51 +95,67 @@ impl<const N: usize> Vertices<N> {
     }
 }
 
+/// The vertices in some directions, with normals if there is something to take slopes with.
 fn batch<const N: usize>(
     gauge: &Gauge,
     space: &Space,
     directions: &[[f64; N]],
-    gradients: &mut Gradients,
+    points: &mut Points<f64>,
+    gradients: Option<&mut Gradients>,
 ) -> Result<Vertices<N>, MeshError> {
     let count = directions.len();
     let mut columns: Vec<Vec<f64>> = (0..N).map(|d| directions.iter().map(|v| v[d]).collect()).collect();
     columns.extend(gauge.fixed.iter().map(|&value| vec![value; count]));
-    let points: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let by: Vec<usize> = (0..N).collect();
+    let at: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let by: [usize; N] = std::array::from_fn(|d| d);
     let mut values = vec![0.0; count];
-    let mut slopes = vec![vec![0.0; count]; N];
-    {
-        let mut slices: Vec<&mut [f64]> = slopes.iter_mut().map(Vec::as_mut_slice).collect();
-        gradients.eval(&gauge.gauge, &points, &by, &mut values, &mut slices);
-    }
     let mut made = Vertices { points: count as u64, ..Vertices::default() };
+    if let Some(gradients) = gradients {
+        let mut slopes: [Vec<f64>; N] = std::array::from_fn(|_| vec![0.0; count]);
+        gradients.eval(&gauge.gauge, &at, &by, &mut values, &mut slopes.each_mut().map(Vec::as_mut_slice));
+        made.normals.extend((0..count).map(|k| length_one(std::array::from_fn(|d| slopes[d][k]))));
+    } else {
+        points.eval(&gauge.gauge, &at, &mut values);
+    }
     made.positions.reserve(count);
-    made.normals.reserve(count);
-    for (k, v) in directions.iter().enumerate() {
-        if !(values[k] > 0.0 && values[k].is_finite()) {
+    for (k, (v, &value)) in directions.iter().zip(&values).enumerate() {
+        if !(value > 0.0 && value.is_finite()) {
             return Err(MeshError::Direction(v.to_vec()));
         }
-        let (mut value, mut normal) = (values[k], std::array::from_fn(|d| slopes[d][k]));
-        if let Some((d, side, least)) = face(gauge, space, v)
-            && least > value * (1.0 + 1e-9)
-        {
-            value = least;
-            normal = std::array::from_fn(|e| if e == d { if side == 0 { -1.0 } else { 1.0 } } else { 0.0 });
+        let mut by = value;
+        let (d, side, least) = face(gauge, space, v);
+        if least > value * (1.0 + 1e-9) {
+            by = least;
             made.cut[d][side] = true;
+            if let Some(normal) = made.normals.get_mut(k) {
+                *normal = std::array::from_fn(|e| {
+                    if e != d {
+                        0.0
+                    } else if side == 0 {
+                        -1.0
+                    } else {
+                        1.0
+                    }
+                });
+            }
         }
-        made.positions.push(std::array::from_fn(|d| gauge.centre[d] + v[d] / value));
-        made.normals.push(length_one(normal));
+        made.positions.push(std::array::from_fn(|d| gauge.centre[d] + v[d] / by));
     }
     Ok(made)
 }
 
-/// The gauge of the space, and which of its faces a ray meets.
-fn face<const N: usize>(gauge: &Gauge, space: &Space, v: &[f64; N]) -> Option<(usize, usize, f64)> {
-    let ends = (0..N).map(|d| {
+/// Which of the faces of the space a ray meets, and the gauge of the space there; 0 if it meets none.
+#[inline]
+fn face<const N: usize>(gauge: &Gauge, space: &Space, v: &[f64; N]) -> (usize, usize, f64) {
+    let mut most = (0, 0, 0.0);
+    for d in 0..N {
         let side = usize::from(v[d] > 0.0);
-        (d, side, v[d] / (space.ranges[d][side] - gauge.centre[d]))
-    });
-    ends.filter(|end| end.2.is_finite()).max_by(|a, b| a.2.total_cmp(&b.2))
+        let value = v[d] / (space.ranges[d][side] - gauge.centre[d]);
+        if value > most.2 && value.is_finite() {
+            most = (d, side, value);
+        }
+    }
+    most
 }
 
 /// The vector at length 1; 0 if it has none.
@@ -147,19 +167,27 @@ fn length_one<const N: usize>(v: [f64; N]) -> [f64; N] {
     if made.iter().all(|c| c.is_finite()) { made } else { [0.0; N] }
 }
 
-/// The mesh over a guide.
+/// The mesh over a guide, with normals or without.
 ///
 /// # Errors
 /// See [`MeshError`].
-pub fn over(gauge: &Gauge, space: &Space, guide: &Guide, interrupt: &Interrupt) -> Result<Made<Mesh>, MeshError> {
+pub fn over(
+    gauge: &Gauge,
+    space: &Space,
+    guide: &Guide,
+    normals: bool,
+    interrupt: &Interrupt,
+) -> Result<Made<Mesh>, MeshError> {
     let mut vertices = Vertices::default();
-    vertices.extend(gauge, space, &guide.directions, interrupt)?;
+    vertices.extend(gauge, space, &guide.directions, normals, interrupt)?;
     Ok(finished(vertices, guide.triangles.clone()))
 }
 
 fn finished(vertices: Vertices<3>, triangles: Vec<[u32; 3]>) -> Made<Mesh> {
     let mut mesh = Mesh { positions: vertices.positions, normals: vertices.normals, triangles };
-    crate::surface::marching::mend_normals(&mut mesh);
+    if !mesh.normals.is_empty() {
+        crate::surface::marching::mend_normals(&mut mesh);
+    }
     Made { boundary: mesh, points: vertices.points, cut: vertices.cut }
 }
 
@@ -176,7 +204,7 @@ pub fn following(
 ) -> Result<Made<Mesh>, MeshError> {
     let Guide { directions, mut triangles } = Solid::Sphere.guide(2);
     let mut vertices = Vertices::default();
-    vertices.extend(gauge, space, &directions, interrupt)?;
+    vertices.extend(gauge, space, &directions, true, interrupt)?;
     for _ in 0..ROUNDS {
         interrupt.tick()?;
         let middles = split(&vertices, &triangles, length);
@@ -196,7 +224,7 @@ pub fn following(
         let directions: Vec<[f64; 3]> = edges.iter().map(middle).collect();
         let first = vertices.positions.len() as u32;
         let numbers: FxHashMap<(u32, u32), u32> = edges.iter().copied().zip(first..).collect();
-        vertices.extend(gauge, space, &directions, interrupt)?;
+        vertices.extend(gauge, space, &directions, true, interrupt)?;
         triangles = divided(&vertices, &triangles, &numbers);
     }
     Ok(finished(vertices, triangles))
@@ -300,7 +328,7 @@ pub fn outline(
     interrupt: &Interrupt,
 ) -> Result<Made<Vec<[f64; 2]>>, MeshError> {
     let mut vertices = Vertices::default();
-    vertices.extend(gauge, space, directions, interrupt)?;
+    vertices.extend(gauge, space, directions, false, interrupt)?;
     Ok(Made { boundary: vertices.positions, points: vertices.points, cut: vertices.cut })
 }
 
@@ -317,7 +345,7 @@ pub fn outline_following(
 ) -> Result<Made<Vec<[f64; 2]>>, MeshError> {
     let mut line: Vec<u32> = (0..64).collect();
     let mut vertices = Vertices::default();
-    vertices.extend(gauge, space, &circle(64), interrupt)?;
+    vertices.extend(gauge, space, &circle(64), true, interrupt)?;
     for _ in 0..ROUNDS {
         let ends = |k: usize| [line[k], line[(k + 1) % line.len()]].map(|v| v as usize);
         let coarse: Vec<bool> = (0..line.len())
@@ -339,7 +367,7 @@ pub fn outline_following(
         };
         let directions: Vec<[f64; 2]> = split.iter().map(middle).collect();
         let mut next = vertices.positions.len() as u32;
-        vertices.extend(gauge, space, &directions, interrupt)?;
+        vertices.extend(gauge, space, &directions, true, interrupt)?;
         let mut longer = Vec::with_capacity(line.len() + split.len());
         for (k, &v) in line.iter().enumerate() {
             longer.push(v);
