@@ -55,8 +55,10 @@ pub fn disk() -> Arc<Memory> {
     let texts: Vec<(String, String)> =
         examples().into_iter().map(|(name, text)| (format!("examples/{name}"), text)).collect();
     let teapot = teapot();
+    let bird = fs::read(folder().join("data/bird.obj")).expect("the bird is there");
     let texts = texts.iter().map(|(name, text)| (name.as_str(), text.as_bytes()));
-    let files: Vec<(&str, &[u8])> = texts.chain([("examples/data/teapot.nrrd", teapot.as_slice())]).collect();
+    let data = [("examples/data/teapot.nrrd", teapot.as_slice()), ("examples/data/bird.obj", bird.as_slice())];
+    let files: Vec<(&str, &[u8])> = texts.chain(data).collect();
     Arc::new(Memory::with(&files))
 }
 
