@@ -49,13 +49,15 @@ pub struct Kept {
     pub points: [u64; 2],
     /// Boxes bounded, in the same way.
     pub boxes: [u64; 2],
+    /// Star solids that one edit, or none, made of those of before.
+    pub edits: u64,
 }
 
 impl Kept {
     /// Whether nothing was kept.
     #[must_use]
     pub fn is_nothing(&self) -> bool {
-        self.wholes.is_empty() && self.pieces[0] == 0
+        self.wholes.is_empty() && self.pieces[0] == 0 && self.edits == 0
     }
 }
 
@@ -70,6 +72,9 @@ impl fmt::Display for Kept {
             parts.push(format!(
                 "{kept} of {all} pieces of the space, {points} % of the points and {boxes} % of the boxes not evaluated again"
             ));
+        }
+        if self.edits > 0 {
+            parts.push(format!("star solids changed by an edit: {}", self.edits));
         }
         f.write_str(&parts.join("; "))
     }
@@ -175,6 +180,11 @@ impl Interrupt {
             reuse.keep(key, Arc::new(made.clone()), bytes);
         }
         Ok(made)
+    }
+
+    /// Tells that a star solid came from that of before by an edit.
+    pub fn kept_edit(&self) {
+        self.lock().kept.edits += 1;
     }
 
     /// Tells how much of a walk through a space was taken from earlier work: pieces, points and boxes, kept ones and all.

@@ -32,6 +32,8 @@ pub struct Limits {
     /// Operations at points (one for a box counts as eight) that the search for a modelling space may spend before it takes what it knows
     /// by then.
     pub search_operations: usize,
+    /// Boxes that a question about objects (INTERSECTS, DISTANCE ...) may look at before it says that it cannot decide.
+    pub question_boxes: usize,
     /// Nodes that the analysis of an object along rays looks at, for one centre.
     pub ray_nodes: usize,
     /// Operations of an object that is written as functions of POV-Ray; a longer one is a mesh alone there.
@@ -62,6 +64,7 @@ impl Default for Limits {
             memory_bytes: 4 << 30,
             data_bytes: 2 << 30,
             search_operations: 300_000_000,
+            question_boxes: 200_000,
             ray_nodes: 2_000_000,
             pov_operations: 20_000,
             frames: 10_000,

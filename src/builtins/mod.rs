@@ -6,15 +6,17 @@ mod angles;
 mod choices;
 mod forms;
 mod powers;
+mod questions;
 mod table;
 mod waves;
 
 pub use forms::FILES;
+pub use questions::{Measure, Question};
 pub use table::{Arity, Builtin, Special, Subject, Term};
 pub use table::{Meaning, WrongCount};
 
 /// All built-ins, by subject and within it in reading order.
-pub static TABLE: &[&[Builtin]] = &[waves::TABLE, angles::TABLE, powers::TABLE, choices::TABLE, forms::TABLE];
+pub static TABLE: &[&[Builtin]] = &[waves::TABLE, angles::TABLE, powers::TABLE, choices::TABLE, forms::TABLE, questions::TABLE];
 
 /// All built-ins in the table's order.
 pub fn all() -> impl Iterator<Item = &'static Builtin> {

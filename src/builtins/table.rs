@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::questions::Question;
 use crate::number::{Algebra, Binary, Ternary, Unary};
 
 /// A built-in function.
@@ -40,6 +41,8 @@ pub enum Subject {
     Functions,
     /// Functions given by data.
     Data,
+    /// Questions about objects.
+    Questions,
 }
 
 impl fmt::Display for Subject {
@@ -52,6 +55,7 @@ impl fmt::Display for Subject {
             Self::Arrays => "arrays and vectors",
             Self::Functions => "functions of functions",
             Self::Data => "data",
+            Self::Questions => "questions about objects",
         })
     }
 }
@@ -120,6 +124,8 @@ pub enum Special {
     Contours,
     /// `MEDIAL(P, R, edges)`
     Medial,
+    /// `INTERSECTS(g1, g2)` and others
+    Question(Question),
     /// `MESH(file)`, `MESH(file, e1, e2, e3)`
     Mesh,
 }
@@ -244,6 +250,7 @@ impl Builtin {
                 S::Star | S::Medial => Arity::Exactly(3),
                 S::Project => Arity::Exactly(4),
                 S::Interpolate => Arity::Between(3, 5),
+                S::Question(question) => question.arity(),
                 S::Mesh => Arity::Between(1, 4),
             },
         }

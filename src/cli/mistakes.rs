@@ -88,6 +88,7 @@ pub fn without_effect(making: &Making, outputs: &[Output]) -> Vec<&'static str> 
     let seen = |output: &Output| {
         matches!(output.format.kind(), Kind::Picture | Kind::Animation) || output.format == Format::ThreeMf
     };
+    let viewed = |output: &Output| seen(output) || output.format == Format::Pov;
     let moves = |output: &Output| output.format.kind() == Kind::Animation || output.format == Format::Glb;
     let frames =
         |output: &Output| moves(output) || matches!(output.target, crate::model::request::Target::Series { .. });
@@ -97,8 +98,8 @@ pub fn without_effect(making: &Making, outputs: &[Output]) -> Vec<&'static str> 
     let options: [Heeded<'_>; 8] = [
         ("--sharp", making.fineness.sharp.is_some(), &edged),
         ("--size", look.size.is_some(), &seen),
-        ("--camera", look.camera.is_some(), &seen),
-        ("--view", look.view.is_some(), &seen),
+        ("--camera", look.camera.is_some(), &viewed),
+        ("--view", look.view.is_some(), &viewed),
         ("--supersample", look.supersample.is_some(), &seen),
         ("--fps", making.motion.fps.is_some(), &moves),
         ("--frames", making.motion.frames.is_some(), &frames),

@@ -125,7 +125,7 @@ fn surroundings(scene: &Scene<'_>) -> String {
     let light = |direction: [f64; 3], colour: Light, is_shadowless: bool| {
         let place = vector(direction.map(|c| c * far));
         let shadowless = if is_shadowless { " shadowless" } else { "" };
-        format!("light_source {{ {place} rgb {} parallel point_at 0{shadowless} }}\n", shade(colour))
+        format!("light_source {{ {place} rgb {} parallel point_at <0, 0, 0>{shadowless} }}\n", shade(colour))
     };
     let part = |colour: Light, share: f32| colour.map(|c| c * share);
     let half: Light = std::array::from_fn(|k| 0.5 * (SKY[k] - GROUND[k]));

@@ -1,6 +1,9 @@
 //! How steep a function is where it is near zero: a bound of the length of its gradient over a box, by intervals over ever smaller
 //! boxes. What is far from zero counts only as far as that costs nothing.
 
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
 use super::graph::{Graph, NodeId};
 use super::slopes::Slopes;
 use crate::interrupt::{Cancelled, Interrupt};
@@ -35,7 +38,7 @@ impl From<Cancelled> for Steep {
 /// Operations that the search may take, over boxes.
 const WORK: usize = 10_000_000;
 /// Boxes at least and at most.
-const BOXES: (usize, usize) = (512, 8_192);
+const BOXES: (usize, usize) = (512, 20_000);
 /// How much steeper than near the boundary a function may be elsewhere without being left aside there.
 const ELSEWHERE: f64 = 1.5;
 
@@ -78,34 +81,77 @@ pub fn steepness(graph: &Graph, root: NodeId, space: [Interval; 3], interrupt: &
     let boxes = (WORK / slopes.len().max(1)).clamp(BOXES.0, BOXES.1);
     let mut pieces = vec![Piece::of(&mut slopes, space)];
     // First where the function may be undefined or zero, the steepest first; then where it is too steep, the nearest to zero first.
-    let mut until = boxes / 2;
-    let mut near = true;
-    while pieces.len() < boxes {
-        interrupt.tick()?;
-        let next = if near { worst_near(&pieces) } else { first_steeper(&pieces) };
-        match next {
-            Some(worst) if pieces.len() < until || !near => {
-                let halves = pieces[worst].halves();
-                pieces[worst] = Piece::of(&mut slopes, halves[0]);
-                pieces.push(Piece::of(&mut slopes, halves[1]));
-            }
-            _ if near => (near, until) = (false, boxes),
-            _ => break,
-        }
+    refine(&mut pieces, boxes / 2, &mut slopes, interrupt, |piece| {
+        let is_near = piece.undefined || piece.least == 0.0;
+        is_near.then(|| [if piece.undefined { 1.0 } else { 0.0 }, piece.steepest, size(piece)])
+    })?;
+    let most = near_boundary(&pieces);
+    let allowed = ELSEWHERE * most;
+    if most.is_finite() {
+        refine(&mut pieces, boxes, &mut slopes, interrupt, |piece| {
+            let is_steeper = piece.least > 0.0 && piece.steepest > allowed;
+            is_steeper.then(|| [-piece.least, size(piece), 0.0])
+        })?;
     }
     if pieces.iter().any(|piece| piece.undefined) {
         return Err(Steep::Undefined);
     }
-    let most = near_boundary(&pieces);
     if !most.is_finite() {
         return Err(Steep::Unbounded);
     }
-    let allowed = ELSEWHERE * most;
     let within = pieces.iter().filter(|piece| piece.steepest > allowed).map(|piece| piece.least);
     // A little less than where the first steeper box begins.
     let within = within.fold(f64::INFINITY, f64::min) * (1.0 - 1e-9);
     let steepest = pieces.iter().filter(|piece| piece.least <= within).map(|piece| piece.steepest);
     Ok(Steepness { most: steepest.fold(0.0, f64::max), within })
+}
+
+/// A box that waits, by its urgency; of equals the one that was there first.
+struct Waiting {
+    urgency: [f64; 3],
+    at: usize,
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let pairs = self.urgency.iter().zip(&other.urgency);
+        pairs.fold(Ordering::Equal, |known, (a, b)| known.then(a.total_cmp(b))).then(other.at.cmp(&self.at))
+    }
+}
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Waiting {}
+
+/// Halves the most urgent box, again and again, until there are so many or none is urgent.
+fn refine(
+    pieces: &mut Vec<Piece>,
+    until: usize,
+    slopes: &mut Slopes<'_>,
+    interrupt: &Interrupt,
+    urgency: impl Fn(&Piece) -> Option<[f64; 3]>,
+) -> Result<(), Cancelled> {
+    let waiting = |at: usize, piece: &Piece| urgency(piece).map(|urgency| Waiting { urgency, at });
+    let mut open: BinaryHeap<Waiting> =
+        pieces.iter().enumerate().filter_map(|(at, piece)| waiting(at, piece)).collect();
+    while pieces.len() < until {
+        let Some(Waiting { at, .. }) = open.pop() else { break };
+        interrupt.tick()?;
+        let halves = pieces[at].halves().map(|half| Piece::of(slopes, half));
+        let [first, second] = halves;
+        open.extend(waiting(at, &first));
+        open.extend(waiting(pieces.len(), &second));
+        pieces[at] = first;
+        pieces.push(second);
+    }
+    Ok(())
 }
 
 /// The steepest slope of the boxes that the boundary may cross; of all if it crosses none.
@@ -120,24 +166,4 @@ fn near_boundary(pieces: &[Piece]) -> f64 {
 
 fn size(piece: &Piece) -> f64 {
     piece.space.iter().map(|side| side.hi - side.lo).product()
-}
-
-/// The box to look into next: one where the function may be undefined, else the steepest that the boundary may cross; of equals the
-/// largest, and the first of those.
-fn worst_near(pieces: &[Piece]) -> Option<usize> {
-    let key = |piece: &Piece| (piece.undefined, piece.steepest, size(piece));
-    let mut worst: Option<usize> = None;
-    for (at, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.undefined || piece.least == 0.0) {
-        if worst.is_none_or(|known| key(piece) > key(&pieces[known])) {
-            worst = Some(at);
-        }
-    }
-    worst
-}
-
-/// The box nearest to zero in which the function is steeper than it should be.
-fn first_steeper(pieces: &[Piece]) -> Option<usize> {
-    let allowed = ELSEWHERE * near_boundary(pieces);
-    let steeper = pieces.iter().enumerate().filter(|(_, piece)| piece.least > 0.0 && piece.steepest > allowed);
-    steeper.min_by(|a, b| a.1.least.total_cmp(&b.1.least).then(size(b.1).total_cmp(&size(a.1)))).map(|found| found.0)
 }

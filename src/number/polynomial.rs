@@ -8,8 +8,11 @@ pub const MOST: usize = 4;
 /// Steps of a root search; every eighth halves the bracket.
 const STEPS: usize = 128;
 
-/// Changes of this size end a root search.
-const CLOSE: f64 = 1e-15;
+/// Newton's steps of this size end a root search: the error behind one is about its square.
+const CLOSE: f64 = 1e-9;
+
+/// How much smaller a halving must be for the same.
+const HALVED: f64 = 1e6;
 
 /// What stands for a root that is not there.
 const NONE: f64 = f64::INFINITY;
@@ -157,7 +160,8 @@ fn between<const L: usize>(c: &[[f64; L]], sign: &[f64; L], mut lo: [f64; L], mu
             let follows = (newton > lo[i]) & (newton < hi[i]) & (step % 8 != 7);
             let next = if follows { newton } else { middle };
             let next = if here[i] == 0.0 { t[i] } else { next };
-            let change = if (lo[i] < middle) & (middle < hi[i]) { (next - t[i]).abs() } else { 0.0 };
+            let change = (next - t[i]).abs() * if follows { 1.0 } else { HALVED };
+            let change = if (lo[i] < middle) & (middle < hi[i]) { change } else { 0.0 };
             moved = if change > moved { change } else { moved };
             t[i] = next;
         }

@@ -36,6 +36,8 @@ pub struct Measures {
     pub bounds: Option<[[Estimate; 2]; 3]>,
     /// Euler characteristic, components, genus.
     pub topology: Topology,
+    /// Connected parts of the inside: surfaces but for those of cavities.
+    pub parts: usize,
     /// Whether half the resolution gives the same topology.
     pub is_settled: bool,
     /// Mean and Gaussian curvature over the smooth parts; a ball's are one over its radius and the square of that.
@@ -145,6 +147,7 @@ fn measured(
         }),
         bounds: if volume > 0.0 { bounds(shape, grid, limits, interrupt)? } else { None },
         topology: fine.topology,
+        parts: fine.parts,
         is_settled: levels.get(1).is_none_or(|half| shown(&half.topology) == shown(&fine.topology)),
         curvature: bends(0).zip(bends(1)).map(|(mean, gauss)| [mean, gauss]),
         report,
@@ -156,6 +159,7 @@ struct Level {
     integrals: Integrals,
     bends: Option<[Sum; 2]>,
     topology: Topology,
+    parts: usize,
     is_smooth: bool,
     /// Area and volume that bevels in the place of creases may lose.
     lost: [f64; 2],
@@ -176,8 +180,36 @@ impl Level {
         let is_smooth = own == mesh.triangles.len() && !has_creases(&mesh);
         let new = report.sharpened.as_ref().map_or(0, |sharpened| sharpened.vertices);
         let lost = lost(&mesh, own, mesh.positions.len() - new);
-        Ok(Self { integrals: Integrals::of(&mesh), bends, topology, is_smooth, lost, report })
+        let parts = parts(&mesh);
+        Ok(Self { integrals: Integrals::of(&mesh), bends, topology, parts, is_smooth, lost, report })
     }
+}
+
+/// The closed surfaces of a mesh that enclose something; those of cavities are turned the other way and enclose less than nothing.
+fn parts(mesh: &Mesh) -> usize {
+    fn root(parent: &mut [u32], mut v: u32) -> u32 {
+        while parent[v as usize] != v {
+            parent[v as usize] = parent[parent[v as usize] as usize];
+            v = parent[v as usize];
+        }
+        v
+    }
+    let Some((lo, hi)) = mesh.bounds() else { return 0 };
+    let middle = std::array::from_fn(|d| 0.5 * (lo[d] + hi[d]));
+    let mut parent: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+    for &[a, b, c] in &mesh.triangles {
+        let first = root(&mut parent, a);
+        for other in [b, c] {
+            let other = root(&mut parent, other);
+            parent[other as usize] = first;
+        }
+    }
+    let mut enclosed = vec![0.0; mesh.positions.len()];
+    for &triangle in &mesh.triangles {
+        let [a, b, c] = mesh.corners(triangle).map(|p| minus(p, middle));
+        enclosed[root(&mut parent, triangle[0]) as usize] += dot(a, cross(b, c));
+    }
+    enclosed.iter().filter(|volume| **volume > 0.0).count()
 }
 
 /// Whether normals at both ends of some edge differ by more than 40 degrees.

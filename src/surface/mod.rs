@@ -22,6 +22,7 @@ pub mod marching;
 pub mod measure;
 pub mod memory;
 pub mod mesh;
+pub mod query;
 pub mod roots;
 pub mod sampler;
 pub mod sharp;

@@ -16,9 +16,10 @@ use crate::interrupt::{Cancelled, Interrupt};
 use crate::vm::{Program, Shape};
 
 use search::{Climb, Ends, Search, Stop, width};
+pub(super) use search::{middle, squeezed};
 
 /// Where "far away" begins: an object with a point beyond it is taken for one without end.
-const FAR: f64 = (1_u64 << 40) as f64;
+pub(super) const FAR: f64 = (1_u64 << 40) as f64;
 /// Part of an axis to which an end is known when it is first narrowed, and at last.
 const ROUGH: f64 = 1.0 / 8.0;
 const FINE: f64 = 1.0 / 256.0;
@@ -142,6 +143,26 @@ pub fn reach(
     Ok(search.inner.map(|inner| {
         inner.iter().zip(&outer).map(|(inner, outer)| [[outer[0], inner[0]], [inner[1], outer[1]]]).collect()
     }))
+}
+
+/// The part of a space that may hold some of an object, as far as it takes to bring ends that are infinite to somewhere finite; at most so
+/// many boxes, roughly, are looked at. An end that intervals leave open stays infinite. `None` if it is proved that nothing is anywhere.
+///
+/// # Errors
+/// [`Cancelled`] soon after the interrupt was set.
+pub fn enclose(
+    program: Arc<Program>,
+    space: &[[f64; 2]],
+    boxes: usize,
+    interrupt: &Interrupt,
+) -> Result<Option<Vec<[f64; 2]>>, Cancelled> {
+    let end = |end: f64| end.is_finite().then_some(end);
+    let known: Vec<Known> = space.iter().map(|[lo, hi]| Known::Sought(end(*lo), end(*hi))).collect();
+    let box_ = BOX * (program.len() as u64 + OVERHEAD);
+    let mut search = Search::new(program, &known, box_.saturating_mul(boxes as u64), interrupt);
+    let is_found = search.bring_in()?;
+    interrupt.tick()?;
+    Ok(is_found.then_some(search.outer))
 }
 
 /// The faces of a space beyond which a 3-D shape goes on, as far as some points of each face tell: lower and upper for each axis.

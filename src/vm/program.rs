@@ -138,6 +138,17 @@ impl Program {
         self.regions.iter().any(|region| region.searches())
     }
 
+    /// The data that the whole is, if it is nothing else, and the values that it reads: inputs come first.
+    #[must_use]
+    pub(crate) fn sole_leaf(&self) -> Option<(&dyn crate::number::Leaf, &[Value])> {
+        match &self.operations[..] {
+            [Op::Leaf(leaf, arity, arguments)] => {
+                Some((&*self.leaves[*leaf as usize].0, &arguments[..usize::from(*arity)]))
+            }
+            _ => None,
+        }
+    }
+
     /// Number of operations.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -183,6 +194,45 @@ impl Program {
             Some(Op::Constant(value)) => Some(*value),
             _ => None,
         }
+    }
+
+    /// Whether the value changes without jumps wherever it is defined and its derivatives are finite: no step, comparison, choice, data or
+    /// loop is in it. Undefined operands that MAX passes over make jumps as well: those of powers cannot be told by their derivatives.
+    #[must_use]
+    pub fn is_continuous(&self) -> bool {
+        let plain = |op: &Op| match *op {
+            Op::Constant(_) | Op::Extreme(..) => true,
+            Op::Unary(op, _) => !matches!(op, Unary::Floor | Unary::Ceil | Unary::Round | Unary::Sign | Unary::Not),
+            Op::Binary(op, ..) | Op::WithRight(op, ..) | Op::WithLeft(op, ..) => matches!(
+                op,
+                Binary::Add
+                    | Binary::Sub
+                    | Binary::Mul
+                    | Binary::Div
+                    | Binary::Min
+                    | Binary::Max
+                    | Binary::Pow
+                    | Binary::Hypot
+            ),
+            Op::Ternary(op, _) | Op::Join(op, ..) => op != Ternary::Select,
+            Op::Leaf(..) | Op::Give(..) | Op::Region(..) | Op::Output(..) => false,
+        };
+        let is_power = |op: &Op| {
+            matches!(op, Op::Binary(Binary::Pow, ..) | Op::WithRight(Binary::Pow, ..) | Op::WithLeft(Binary::Pow, ..))
+        };
+        let passes_over = |op: &Op| {
+            matches!(
+                op,
+                Op::Binary(Binary::Max, ..)
+                    | Op::WithRight(Binary::Max, ..)
+                    | Op::WithLeft(Binary::Max, ..)
+                    | Op::Extreme(Binary::Max, ..)
+                    | Op::Ternary(Ternary::Union | Ternary::UnionSmooth, _)
+                    | Op::Join(Ternary::Union | Ternary::UnionSmooth, ..)
+            )
+        };
+        let all = &self.operations;
+        all.iter().all(plain) && !(all.iter().any(is_power) && all.iter().any(passes_over))
     }
 
     /// Which of the inputs the value depends on, by position.

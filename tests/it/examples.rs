@@ -50,9 +50,19 @@ pub fn loaded(name: &str, text: &str) -> (Session, Arc<Memory>) {
     (session, host)
 }
 
+/// A disk with what the examples read: data, and each other.
+pub fn disk() -> Arc<Memory> {
+    let texts: Vec<(String, String)> =
+        examples().into_iter().map(|(name, text)| (format!("examples/{name}"), text)).collect();
+    let teapot = teapot();
+    let texts = texts.iter().map(|(name, text)| (name.as_str(), text.as_bytes()));
+    let files: Vec<(&str, &[u8])> = texts.chain([("examples/data/teapot.nrrd", teapot.as_slice())]).collect();
+    Arc::new(Memory::with(&files))
+}
+
 /// A session that has accepted the script under the definitions of a command line, what it told, and where it writes.
 fn defined(name: &str, text: &str, define: &[Assignment]) -> (Session, Vec<Event>, Arc<Memory>) {
-    let host = Arc::new(Memory::with(&[("examples/data/teapot.nrrd", &teapot())]));
+    let host = disk();
     let mut session = Session::new(host.clone(), Limits::default(), Interrupt::default());
     for assignment in define {
         session.set(&assignment.name, &assignment.expression);

@@ -36,6 +36,11 @@ const LONG: &[(&str, &str, &[&str])] = &[
         "gob_a = PROJECT(OFFSET_BALL(PROJECT(SIN(x1*x4) + SIN(x2*x5) - x3**2, x4, 0, 9), 0.5), x5, 0, 9);",
         &["-o", "a.png"],
     ),
+    (
+        "a question",
+        "gob_b = SUM(i = 1 TO 3000, SIN(i*x1)*SIN(i*x2)*SIN(i*x3)) - 1000; d = DISTANCE(gob_b, [9, 9, 9]); gob_a = d - x1**2;",
+        &["-o", "a.stl"],
+    ),
     ("a loop", "n = 0; i = 0; FOR j = 1 TO 9999999 DO i = i + SIN(j); gob_a = i - x1**2;", &["-o", "a.stl"]),
 ];
 const SPACE: &str = "x1min = -4; x1max = 4; x2min = -4; x2max = 4; x3min = -4; x3max = 4;";

@@ -116,10 +116,20 @@ fn least(mut lo: usize, mut hi: usize, fits: impl Fn(usize) -> bool) -> usize {
 fn a_session_of_too_many_nodes_is_refused() {
     let program = "gob_a = 1; FOR i = 1 TO 20 DO gob_a = gob_a + SIN(i*x1);";
     let with = |graph_nodes| errors(Limits { graph_nodes, ..Limits::default() }, program);
-    let enough = least(1, 1000, |n| with(n).is_empty());
+    let enough = least(1, 5000, |n| with(n).is_empty());
     assert!((20..200).contains(&enough), "{enough}");
     let refused = with(enough - 1);
     assert!(refused.len() == 1 && refused[0].contains(&format!("more than {} operations", enough - 1)), "{refused:?}");
+}
+
+#[test]
+fn a_question_of_too_many_boxes_is_not_decided() {
+    let program = "a = INTERSECTS(pob_sphere([0, 0, 0], 1), pob_sphere([2.0001, 0.1, 0.2], 1.01));";
+    let with = |question_boxes| errors(Limits { question_boxes, ..Limits::default() }, program);
+    let enough = least(1, 5000, |n| with(n).is_empty());
+    assert!((2..4000).contains(&enough), "{enough}");
+    let refused = with(enough - 1);
+    assert!(refused.len() == 1 && refused[0].contains(&format!("{} boxes", enough - 1)), "{refused:?}");
 }
 
 /// What `-o` answers under these limits: nothing, or its messages.

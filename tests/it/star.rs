@@ -227,3 +227,56 @@ fn edits_that_are_refused_change_nothing() {
     sculpture.edit(Edit::Add { part: 0, row: row(&mut random) }, &interrupt).expect("possible");
     assert!(drift(&sculpture) < 1e-12);
 }
+
+/// A session's design of so many polyhedra, of which one coefficient of one has a name.
+fn design(parts: usize, coefficient: f64) -> String {
+    let mut random = Random(7);
+    let parts: Vec<String> = (0..parts)
+        .map(|part| {
+            let rows = (0..6).map(|d| {
+                let mut row = [0.0; 3].map(|_: f64| random.between(-0.2, 0.2).to_string());
+                row[d / 2] = (if d % 2 == 0 { 1.0 } else { -1.0 } * random.between(0.8, 1.6)).to_string();
+                if part == 3 && d == 2 {
+                    row[1] = "k".into();
+                }
+                format!("[{}]", row.join(","))
+            });
+            format!("[{}]", rows.collect::<Vec<_>>().join(","))
+        })
+        .collect();
+    format!("k = {coefficient}; P = [{}]; gob_a = STAR(P, 6, 12);", parts.join(","))
+}
+
+/// Redefining one number is an edit of what the guide's vertices keep, and gives the mesh of a session that begins with it.
+#[test]
+fn a_session_sees_an_edit() {
+    use yont::model::request::{self, Options, Output};
+    let write = |session: &mut yont::model::Session| {
+        let mut options = Options::default();
+        options.view.guide = request::Choice::read("icosahedron:4").expect("a guide");
+        let output = Output::parse("-", request::Format::by_extension("stl")).expect("a mesh");
+        let mut bytes = Vec::new();
+        request::write(session, &output, &options, &mut bytes).expect("a mesh");
+        // Corners of triangles: behind the head, normals left out.
+        let numbers: Vec<f32> = bytes[84..]
+            .chunks_exact(50)
+            .flat_map(|facet| (3..12).map(|k| f32::from_le_bytes(facet[4 * k..4 * k + 4].try_into().expect("four"))))
+            .collect();
+        numbers
+    };
+    let begun = |coefficient| {
+        let mut session = session();
+        assert!(session.input("a.geo", &design(20, coefficient), Mode::Script).accepted);
+        session
+    };
+    let mut edited = begun(1.1);
+    let before = write(&mut edited);
+    assert_eq!(edited.interrupt().costs().kept.edits, 0, "nothing is an edit of nothing");
+    assert!(edited.input("a.geo", "k = 0.7;", Mode::Script).accepted);
+    let after = write(&mut edited);
+    assert_eq!(edited.interrupt().costs().kept.edits, 1, "one number changed");
+    let fresh = write(&mut begun(0.7));
+    assert!(before != after, "another shape");
+    let far = after.iter().zip(&fresh).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    assert!(after.len() == fresh.len() && far < 1e-6, "{far} apart");
+}

@@ -55,8 +55,11 @@ fn options_without_effect_are_told_once() {
         (&["-o", "a.stl"][..], &["--size", "--fps"][..]),
         (&["-o", "b.stl", "-o", "b.png"], &["--fps"]),
         (&["-o", "c.png"], &["--fps"]),
+        (&["-o", "d.pov"], &["--size", "--fps"]),
     ] {
-        let ran = run(folder.path(), &[&["ball.geo"], outputs, &sizes].concat(), "");
+        // Where the camera stands matters to a picture, and to a scene.
+        let view: &[&str] = if outputs[1] == "a.stl" { &[] } else { &["--view", "top"] };
+        let ran = run(folder.path(), &[&["ball.geo"], outputs, &sizes, view].concat(), "");
         assert_eq!(ran.status, Some(0), "{outputs:?}: {}", ran.err);
         assert_eq!(ran.err.matches("has no effect").count(), told.len(), "{outputs:?}: {}", ran.err);
         assert!(told.iter().all(|option| ran.err.contains(&format!("{option} has no effect"))), "{}", ran.err);

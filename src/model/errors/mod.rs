@@ -1,10 +1,12 @@
 //! The messages of this room: what was found in the user's words, and what to do. Computes nothing.
 
 mod names;
+mod questions;
 mod star;
 mod values;
 
 pub use names::*;
+pub use questions::*;
 pub use star::*;
 pub use values::*;
 

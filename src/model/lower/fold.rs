@@ -121,6 +121,7 @@ impl Lower<'_> {
             Special::Contours => return self.contours(builtin, arguments, span),
             Special::Medial => return self.medial(builtin, arguments, span),
             Special::Interpolate => return self.interpolate(builtin, arguments, span),
+            Special::Question(question) => return self.question(question, arguments, span),
             Special::Mesh => return self.mesh(builtin, arguments, span),
         };
         self.fold_array(op, builtin, &arguments[0], span)

@@ -4,6 +4,8 @@ use std::io::Write;
 
 use crate::diagnostic::Diagnostic;
 use crate::field::{Coordinate, NodeId};
+use crate::interrupt::Interrupt;
+use crate::limits::Limits;
 use crate::number::{Algebra, Binary};
 use crate::surface::figure::measure as measure_figure;
 use crate::surface::line::intervals;
@@ -22,11 +24,11 @@ use super::subject::{Level, Place, Sequence, Subject};
 use super::together::subject;
 use super::told;
 use super::way::{Ready, Route};
-use super::{Options, Timing, View};
+use super::{Cells, Options, Timing, View};
 use crate::model::environment::{self, Object, Role};
 use crate::model::route::{Question, star};
 use crate::model::session::Session;
-use crate::vm::Precision;
+use crate::vm::{Precision, Shape};
 
 /// An answer, or the messages that say why there is none.
 type Asked<T> = Result<T, Vec<Diagnostic>>;
@@ -104,33 +106,48 @@ fn measure_subject(session: &Session, view: &View, subject: &Subject) -> Result<
     }
     notes.extend(told::first_moment(subject));
     let _phase = interrupt.phase("measure");
-    let (of, resolution) = if let [axis] = subject.axes[..] {
-        let line = intervals(&shape, axis.range, interrupt)?;
+    let (of, more, resolution) = dimension(subject, &shape, (view.cells, view.sharp), limits, interrupt)?;
+    notes.extend(more);
+    let bounds = subject.axes.iter().map(|a| (a.coordinate, a.range)).collect();
+    Ok(Measured { object: subject.name.to_string(), bounds, resolution, of, notes })
+}
+
+/// What is measured of a subject in its space, what there is to say of it, and the cells along the longest side.
+///
+/// # Errors
+/// If it is empty there, or its boundary could not be found.
+pub(in crate::model) fn dimension(
+    subject: &Subject,
+    shape: &Shape,
+    (cells, sharp): (Cells, bool),
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Result<(Dimension, Vec<Diagnostic>, usize), Diagnostic> {
+    let mut notes = Vec::new();
+    if let [axis] = subject.axes[..] {
+        let line = intervals(shape, axis.range, interrupt)?;
         if line.intervals.is_empty() {
             return Err(told::empty(subject, None, None));
         }
         notes.extend(told::undefined(subject, &line.counters));
         notes.extend(told::cut(subject, &[line.cut, [false; 2], [false; 2]]));
-        (Dimension::Line(line), 0)
+        return Ok((Dimension::Line(line), notes, 0));
+    }
+    let grid = subject.grid(cells, limits)?;
+    let (of, report, is_settled) = if subject.axes.len() == 3 {
+        let measures = measure_solid(shape, &grid, sharp, limits, interrupt).map_err(|e| unmeasured(&e))?;
+        let (report, is_settled) = (measures.report.clone(), measures.is_settled);
+        let triangles = measures.topology.triangles;
+        ((triangles > 0).then(|| Dimension::Solid(Box::new(measures), triangles)), report, is_settled)
     } else {
-        let grid = subject.grid(view.cells, limits)?;
-        let (of, report, is_settled) = if subject.axes.len() == 3 {
-            let measures = measure_solid(&shape, &grid, view.sharp, limits, interrupt).map_err(|e| unmeasured(&e))?;
-            let (report, is_settled) = (measures.report.clone(), measures.is_settled);
-            let triangles = measures.topology.triangles;
-            ((triangles > 0).then(|| Dimension::Solid(Box::new(measures), triangles)), report, is_settled)
-        } else {
-            let figure = measure_figure(&shape, &grid, view.sharp, limits, interrupt).map_err(|e| unmeasured(&e.into()))?;
-            let (report, is_settled) = (figure.report.clone(), figure.is_settled);
-            ((figure.points > 0).then(|| Dimension::Plane(Box::new(figure))), report, is_settled)
-        };
-        let Some(of) = of else { return Err(told::empty(subject, None, Some(&report))) };
-        notes.extend(told::of_report(subject, &report));
-        notes.extend((!is_settled).then(|| told::unsettled(subject)));
-        (of, grid.cells.into_iter().max().unwrap_or_default())
+        let figure = measure_figure(shape, &grid, sharp, limits, interrupt).map_err(|e| unmeasured(&e.into()))?;
+        let (report, is_settled) = (figure.report.clone(), figure.is_settled);
+        ((figure.points > 0).then(|| Dimension::Plane(Box::new(figure))), report, is_settled)
     };
-    let bounds = subject.axes.iter().map(|a| (a.coordinate, a.range)).collect();
-    Ok(Measured { object: subject.name.to_string(), bounds, resolution, of, notes })
+    let Some(of) = of else { return Err(told::empty(subject, None, Some(&report))) };
+    notes.extend(told::of_report(subject, &report));
+    notes.extend((!is_settled).then(|| told::unsettled(subject)));
+    Ok((of, notes, grid.cells.into_iter().max().unwrap_or_default()))
 }
 
 fn unmeasured(error: &MeasureError) -> Diagnostic {

@@ -23,6 +23,7 @@ mod told;
 pub mod way;
 
 pub use crate::vm::Precision;
+pub(in crate::model) use ask::dimension;
 pub use ask::{measure, sample, sampling, write};
 pub use fields::{Sampled, Sampling};
 pub(super) use info::role;

@@ -181,6 +181,27 @@ impl<'a> Search<'a> {
         Ok(Ends::Open)
     }
 
+    /// Brings those ends from infinity to somewhere finite for which intervals can tell. Whether anything may be left.
+    pub(super) fn bring_in(&mut self) -> Result<bool, Cancelled> {
+        loop {
+            let mut open = self.ends();
+            open.retain(|&(axis, up)| self.outer[axis][usize::from(up)].is_infinite());
+            let before = open.len();
+            let share = self.left() / (64 * before.max(1) as u64);
+            for &(axis, up) in &open {
+                match self.climb(axis, up, Stop::Finite, share)? {
+                    Climb::Reach(at) => self.outer[axis][usize::from(up)] = at,
+                    Climb::Nothing => return Ok(false),
+                    Climb::Open | Climb::Endless => {}
+                }
+            }
+            open.retain(|&(axis, up)| self.outer[axis][usize::from(up)].is_infinite());
+            if open.is_empty() || open.len() == before {
+                return Ok(true);
+            }
+        }
+    }
+
     /// An object without end in some directions: those too in which points far away say so.
     fn all_endless(&mut self, mut found: Vec<(usize, bool)>) -> Result<Vec<(usize, bool)>, Cancelled> {
         let mut open = self.ends();
@@ -511,12 +532,12 @@ pub(super) fn is_point([lo, hi]: [f64; 2]) -> bool {
     hi - lo <= 1e-9 * (1.0 + lo.abs().max(hi.abs()))
 }
 
-fn squeezed(x: f64) -> f64 {
+pub(in crate::surface) fn squeezed(x: f64) -> f64 {
     if x.is_infinite() { x.signum() } else { x / (1.0 + x.abs()) }
 }
 
 /// Where a range is split: at 0 if it lies well within, else in the middle, on a scale of powers where the range is long.
-fn middle([lo, hi]: [f64; 2]) -> f64 {
+pub(in crate::surface) fn middle([lo, hi]: [f64; 2]) -> f64 {
     if lo < 0.0 && hi > 0.0 {
         let balanced = lo.is_infinite() || hi.is_infinite() || lo.abs().min(hi) >= 0.25 * (hi - lo);
         return if balanced { 0.0 } else { 0.5 * lo + 0.5 * hi };

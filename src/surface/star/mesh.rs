@@ -4,8 +4,8 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::Gauge;
 use super::guide::{Guide, Solid};
+use super::{Gauge, kept};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::mesh::{Mesh, dot, minus};
 use crate::vm::{Gradients, Points};
@@ -93,6 +93,41 @@ impl<const N: usize> Vertices<N> {
         }
         Ok(())
     }
+
+    /// Puts a vertex into each direction in which the gauge has these values; normals, if there are any, are those of the gauge.
+    fn place(
+        &mut self,
+        gauge: &Gauge,
+        space: &Space,
+        directions: &[[f64; N]],
+        values: &[f64],
+    ) -> Result<(), MeshError> {
+        self.positions.reserve(directions.len());
+        for (k, (v, &value)) in directions.iter().zip(values).enumerate() {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(MeshError::Direction(v.to_vec()));
+            }
+            let mut by = value;
+            let (d, side, least) = face(gauge, space, v);
+            if least > value * (1.0 + 1e-9) {
+                by = least;
+                self.cut[d][side] = true;
+                if let Some(normal) = self.normals.get_mut(k) {
+                    *normal = std::array::from_fn(|e| {
+                        if e != d {
+                            0.0
+                        } else if side == 0 {
+                            -1.0
+                        } else {
+                            1.0
+                        }
+                    });
+                }
+            }
+            self.positions.push(std::array::from_fn(|d| gauge.centre[d] + v[d] / by));
+        }
+        Ok(())
+    }
 }
 
 /// The vertices in some directions, with normals if there is something to take slopes with.
@@ -109,38 +144,16 @@ fn batch<const N: usize>(
     let at: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     let by: [usize; N] = std::array::from_fn(|d| d);
     let mut values = vec![0.0; count];
-    let mut made = Vertices { points: count as u64, ..Vertices::default() };
+    let mut normals = Vec::new();
     if let Some(gradients) = gradients {
         let mut slopes: [Vec<f64>; N] = std::array::from_fn(|_| vec![0.0; count]);
         gradients.eval(&gauge.gauge, &at, &by, &mut values, &mut slopes.each_mut().map(Vec::as_mut_slice));
-        made.normals.extend((0..count).map(|k| length_one(std::array::from_fn(|d| slopes[d][k]))));
+        normals.extend((0..count).map(|k| length_one(std::array::from_fn(|d| slopes[d][k]))));
     } else {
         points.eval(&gauge.gauge, &at, &mut values);
     }
-    made.positions.reserve(count);
-    for (k, (v, &value)) in directions.iter().zip(&values).enumerate() {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(MeshError::Direction(v.to_vec()));
-        }
-        let mut by = value;
-        let (d, side, least) = face(gauge, space, v);
-        if least > value * (1.0 + 1e-9) {
-            by = least;
-            made.cut[d][side] = true;
-            if let Some(normal) = made.normals.get_mut(k) {
-                *normal = std::array::from_fn(|e| {
-                    if e != d {
-                        0.0
-                    } else if side == 0 {
-                        -1.0
-                    } else {
-                        1.0
-                    }
-                });
-            }
-        }
-        made.positions.push(std::array::from_fn(|d| gauge.centre[d] + v[d] / by));
-    }
+    let mut made = Vertices { normals, points: count as u64, ..Vertices::default() };
+    made.place(gauge, space, directions, &values)?;
     Ok(made)
 }
 
@@ -179,7 +192,13 @@ pub fn over(
     interrupt: &Interrupt,
 ) -> Result<Made<Mesh>, MeshError> {
     let mut vertices = Vertices::default();
-    vertices.extend(gauge, space, &guide.directions, normals, interrupt)?;
+    let kept = if normals { None } else { kept::reaches(gauge, guide, interrupt)? };
+    if let Some(reaches) = kept {
+        let values: Vec<f64> = reaches.iter().map(|reach| 1.0 / reach).collect();
+        vertices.place(gauge, space, &guide.directions, &values)?;
+    } else {
+        vertices.extend(gauge, space, &guide.directions, normals, interrupt)?;
+    }
     Ok(finished(vertices, guide.triangles.clone()))
 }
 

@@ -2,6 +2,7 @@
 //! `c + v / F(v)`. Proves that a gauge holds in every direction, and makes meshes of guide shapes. Never looks for a boundary.
 
 pub mod guide;
+mod kept;
 pub mod mesh;
 pub mod prove;
 

@@ -34,8 +34,9 @@ const BUILT_IN: &[(&str, usize, usize)] = &[
     ("max", 2, 99),
     ("select", 3, 4),
 ];
-/// What POV-Ray takes: parameters of a function, functions within functions.
+/// Parameters of a function that POV-Ray takes.
 const PARAMETERS: usize = 56;
+/// Functions within functions that it takes.
 const CALLS: usize = 1000;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -165,14 +166,8 @@ impl Scene {
             }
             Tree::BuiltIn(name, arguments) if name == "select" => {
                 let condition = of(&arguments[0]);
-                let taken = if condition < 0.0 {
-                    1
-                } else if condition == 0.0 {
-                    2
-                } else {
-                    arguments.len() - 1
-                };
-                of(&arguments[taken])
+                let last = if condition == 0.0 { 2 } else { arguments.len() - 1 };
+                of(&arguments[if condition < 0.0 { 1 } else { last }])
             }
             Tree::BuiltIn(name, arguments) => {
                 let all: Vec<f64> = arguments.iter().map(of).collect();
@@ -188,6 +183,10 @@ impl Scene {
 
 fn built_in(name: &str, all: &[f64]) -> f64 {
     let a = all[0];
+    let arc: [(&str, fn(f64) -> f64); 3] = [("asin", f64::asin), ("acos", f64::acos), ("atan", f64::atan)];
+    if let Some((_, arc)) = arc.iter().find(|arc| arc.0 == name) {
+        return arc(a);
+    }
     match name {
         "abs" => a.abs(),
         "sqrt" => a.sqrt(),
@@ -197,9 +196,6 @@ fn built_in(name: &str, all: &[f64]) -> f64 {
         "sin" => a.sin(),
         "cos" => a.cos(),
         "tan" => a.tan(),
-        "asin" => a.asin(),
-        "acos" => a.acos(),
-        "atan" => a.atan(),
         "sinh" => a.sinh(),
         "cosh" => a.cosh(),
         "tanh" => a.tanh(),
