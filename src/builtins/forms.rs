@@ -3,10 +3,16 @@
 
 use super::table::{Builtin, Meaning, Special, Subject};
 
-/// The files that the examples read, by name: two samples 0 and 1 at 0 and 1; a tetrahedron with the corners 0, 4 x1, 4 x2 and 4 x3.
+/// The files that the examples read, by name: two samples 0 and 1 at 0 and 1; a tetrahedron with the corners 0, 4 x1, 4 x2 and 4 x3; a picture of a
+/// black and a white pixel.
 pub const FILES: &[(&str, &[u8])] = &[
     ("ramp.nrrd", b"NRRD0004\ntype: float\ndimension: 1\nsizes: 2\nspacings: 1\nencoding: ascii\n\n0 1\n"),
     ("corner.obj", b"v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"),
+    (
+        "dark.png",
+        b"\x89PNG\x0d\x0a\x1a\x0a\x00\x00\x00\x0dIHDR\x00\x00\x00\x02\x00\x00\x00\x01\x08\x00\x00\x00\x00\xd1I V\
+          \x00\x00\x00\x0bIDATx\xdac`\xf8\x0f\x00\x01\x02\x01\x00\xd1\x1a\xcb\x8f\x00\x00\x00\x00IEND\xaeB`\x82",
+    ),
 ];
 
 const fn entry(
@@ -210,5 +216,33 @@ pub(super) static TABLE: &[Builtin] = &[
         "The solid within the closed mesh of an .obj or .stl file: the distance to the nearest triangle, positive where the mesh goes round \
          the point, at x1, x2, x3 or at three expressions behind the file.",
         ("MESH(\"corner.obj\") AT (x1 = 1, x2 = 0.5, x3 = 1)", 0.5),
+    ),
+    entry(
+        Special::Scatter,
+        Data,
+        "SCATTER",
+        &["points", "values", "smoothness", "nx", "ny", "e1", "e2"],
+        "The smooth function near the values at scattered points, rows [x, y], at e1, e2: nx by ny elements of quadratic splines over the points' \
+         box, which make the mean squared distance from the values plus smoothness times the bending energy least (in lengths of the box's \
+         longer side). Beyond the box it stays as at its border.",
+        ("ROUND(1000*SCATTER([[0, 0], [2, 0], [0, 2], [2, 2]], [0, 2, 4, 6], 0, 4, 4, 0.5, 1))", 2500.0),
+    ),
+    entry(
+        Special::Height,
+        Data,
+        "HEIGHT",
+        &["file", "e1", "e2"],
+        "The brightness, 0 to 1, of a PNG picture over the unit square at e1 (from left to right) and e2 (from the bottom up), smoothed by \
+         cubic splines. Beyond the square it stays as at its border.",
+        ("HEIGHT(\"dark.png\", 0, 0.5) < HEIGHT(\"dark.png\", 1, 0.5)", 1.0),
+    ),
+    entry(
+        Special::Fit,
+        Data,
+        "FIT",
+        &["residual", "start", "points"],
+        "The array of parameters for which the squares of residual(parameters, point), summed over the rows of points, are least, sought from \
+         `start` by Levenberg and Marquardt with exact derivatives. The residual is a function of two arrays; its value may be an array.",
+        ("FIT(fn_line_residual, [0, 1], [[0, 1], [1, 3], [2, 5]])[2]", 2.0),
     ),
 ];

@@ -128,6 +128,12 @@ pub enum Special {
     Question(Question),
     /// `MESH(file)`, `MESH(file, e1, e2, e3)`
     Mesh,
+    /// `SCATTER(points, values, smoothness, nx, ny, e1, e2)`
+    Scatter,
+    /// `HEIGHT(file, e1, e2)`
+    Height,
+    /// `FIT(residual, start, points)`
+    Fit,
 }
 
 /// A formula over the primitives; `Argument(0)` is the first argument.
@@ -252,6 +258,8 @@ impl Builtin {
                 S::Interpolate => Arity::Between(3, 5),
                 S::Question(question) => question.arity(),
                 S::Mesh => Arity::Between(1, 4),
+                S::Scatter => Arity::Exactly(7),
+                S::Height | S::Fit => Arity::Exactly(3),
             },
         }
     }

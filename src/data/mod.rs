@@ -15,6 +15,7 @@ pub mod place;
 pub mod polygon;
 pub mod pyramid;
 pub mod raw;
+pub mod sheet;
 pub mod stl;
 pub mod stream;
 pub mod text;

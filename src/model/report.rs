@@ -124,7 +124,7 @@ impl Move<'_> {
         for (k, token) in tokens.iter().enumerate().filter(|(_, token)| token.kind == TokenKind::Text) {
             let words = text[token.start..token.end].trim_matches('"');
             let before = |back: usize, word: &str| k >= back && tokens[k - back].is_word(&text, word);
-            let is_file = before(4, "INTERPOLATE") || before(2, "MESH");
+            let is_file = before(4, "INTERPOLATE") || before(2, "MESH") || before(2, "HEIGHT");
             let path = resolve(own.as_deref(), Path::new(words));
             let beside = self.folders.iter().map(|folder| folder.join(words));
             let Some(path) = [path].into_iter().chain(beside).find(|path| is_file || self.known.contains(path)) else {

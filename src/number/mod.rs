@@ -2,6 +2,7 @@
 
 pub mod dual;
 pub mod extremum;
+pub mod fit;
 pub mod float;
 pub mod functions;
 pub mod interval;

@@ -12,3 +12,8 @@ rel_inside((gob/pob) g, (array) p) = (g AT (p)) >= 0;
 rel_membership((gob/pob) g, (array) p) =
   IF ABS(value) <= 1e-12*(1 + NORM(p))*NORM(GRAD(g) AT (p)) THEN 1 ELSE IF value > 0 THEN 2 ELSE 0
   WHERE value = g AT (p);
+
+{ How far the line q[1] + q[2]*x passes above the point p = [x, y]: a residual for FIT, and a pattern for others.
+  Example: fn_line_residual([1, 2], [3, 4])   // 3
+  Source: least squares }
+fn_line_residual((array) q, (array) p) = q[1] + q[2]*p[1] - p[2];

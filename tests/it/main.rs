@@ -40,6 +40,7 @@ mod repl;
 mod scenes;
 mod session;
 mod sharp;
+mod sheets;
 mod slips;
 mod solid_meshes;
 mod solids;

@@ -231,6 +231,8 @@ impl Rays<'_> {
     }
 
     fn root(&mut self, ratio: NodeId, gap: f64) -> NodeId {
+        // An even power would hide that a ray never leaves.
+        let ratio = if (1.0 / gap).rem_euclid(2.0) == 0.0 { self.not_negative(ratio) } else { ratio };
         let graph = &mut self.sums.graph;
         if (gap - 1.0).abs() < 1e-12 {
             ratio

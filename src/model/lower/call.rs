@@ -77,7 +77,7 @@ impl Lower<'_> {
         Ok(values)
     }
 
-    fn call_function(&mut self, function: &Arc<Function>, values: Vec<Value>, span: Span) -> Lowered<Value> {
+    pub(super) fn call_function(&mut self, function: &Arc<Function>, values: Vec<Value>, span: Span) -> Lowered<Value> {
         self.turn(span)?;
         if self.calls >= self.world.limits.call_depth {
             return Err(errors::too_many_calls(&function.name, self.world.limits.call_depth, span).into());

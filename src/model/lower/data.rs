@@ -1,4 +1,5 @@
-//! Data as functions: INTERPOLATE and MESH read their files through the host and make leaves of them.
+//! Data as functions: INTERPOLATE, MESH and HEIGHT read their files through the host and make leaves of them, SCATTER makes one
+//! of numbers.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,6 +9,8 @@ use rustc_hash::FxHashMap;
 
 use crate::builtins::Builtin;
 use crate::data::mesh::{self, MeshError};
+use crate::data::sheet::height::{self, HeightError};
+use crate::data::sheet::scatter::{self, ScatterError};
 use crate::data::{self, DataError, Interpolation};
 use crate::diagnostic::{Category, Diagnostic};
 use crate::field::{Coordinate, SharedLeaf};
@@ -16,7 +19,7 @@ use crate::source::Span;
 use crate::syntax::tree::Expr;
 
 use super::super::errors;
-use super::super::value::Value;
+use super::super::value::{self, Scalar, Value};
 use super::{Lower, Lowered};
 
 /// What a file is read as.
@@ -25,6 +28,7 @@ enum As {
     /// A volume with a kind of interpolation.
     Volume(String),
     Mesh,
+    Picture,
 }
 
 /// A file as a function, and what there is to tell of it: code, title and help.
@@ -38,7 +42,12 @@ struct Read {
 #[derive(Debug, Default)]
 pub struct Files {
     leaves: FxHashMap<(PathBuf, As), Read>,
+    /// What SCATTER made, by all that it was given.
+    sheets: FxHashMap<Vec<u64>, Arc<dyn Leaf>>,
 }
+
+/// Sheets that are kept at most.
+const SHEETS: usize = 8;
 
 impl Files {
     /// What was read: the fingerprint of each leaf, its file, and what stands in front of the file in a call.
@@ -47,6 +56,7 @@ impl Files {
             let call = match read_as {
                 As::Volume(kind) => format!("INTERPOLATE(\"{kind}\", "),
                 As::Mesh => "MESH(".to_owned(),
+                As::Picture => "HEIGHT(".to_owned(),
             };
             (read.leaf.fingerprint(), path.clone(), call)
         })
@@ -110,6 +120,94 @@ impl Lower<'_> {
         let place = [1, 2, 3].map(|c| self.graph.coordinate(Coordinate(c)));
         let id = self.graph.leaf(SharedLeaf(leaf), &place);
         Ok(Value::Scalar(self.wrap(id)))
+    }
+
+    /// `HEIGHT(file, e1, e2)`
+    pub(super) fn height(&mut self, arguments: &[Expr]) -> Lowered<Value> {
+        let file = self.text(&arguments[0], "the file of HEIGHT")?;
+        let at = arguments[0].span;
+        let leaf = self.read(&file, As::Picture, at, None, |lower, path, bytes| {
+            let context = data::Context { limits: lower.world.limits, interrupt: lower.world.interrupt };
+            let leaf = height::sheet(&path.display().to_string(), bytes, context).map_err(|e| match e {
+                HeightError::Cancelled => super::Fault::Cancelled,
+                e => bad_file("bad-picture", path, &e.to_string(), e.help().into(), at).into(),
+            })?;
+            Ok(Read { leaf, told: Vec::new() })
+        })?;
+        self.leaf_at(leaf, &arguments[1..], "a coordinate of HEIGHT")
+    }
+
+    /// `SCATTER(points, values, smoothness, nx, ny, e1, e2)`
+    pub(super) fn scatter(&mut self, builtin: &Builtin, arguments: &[Expr], span: Span) -> Lowered<Value> {
+        let [points, values, smoothness, nx, ny, at @ ..] = arguments else { return Ok(Value::number(f64::NAN)) };
+        let rows = self.rows(builtin, points)?;
+        let places: Option<Vec<[f64; 2]>> = rows.iter().map(|row| row[..].try_into().ok()).collect();
+        let Some(places) = places else {
+            return Err(errors::wrong_builtin_shape(builtin, "an array of points [x, y]", points.span).into());
+        };
+        let heights = self.numbers(builtin, values)?;
+        if places.len() != heights.len() {
+            return Err(errors::lengths_differ(places.len(), heights.len(), points.span, values.span).into());
+        }
+        let smooth = self.plain_number(smoothness, "the smoothness of SCATTER")?;
+        if !(smooth >= 0.0 && smooth <= 1e100) {
+            let title = format!("the smoothness of SCATTER is {}; it is 0 or more", value::number(smooth));
+            let help = "0 follows the values as closely as the elements can, 1 is nearly a plane; try 1e-6";
+            return Err(Diagnostic::error("bad-scatter", title).at(smoothness.span, "").help(help).into());
+        }
+        let mut elements = [0; 2];
+        for (to, e) in elements.iter_mut().zip([nx, ny]) {
+            let count = self.plain_number(e, "the number of elements of SCATTER")?;
+            if !(count.fract() == 0.0 && (1.0..=1e6).contains(&count)) {
+                let title = format!(
+                    "the number of elements of SCATTER is {}; it is a whole number from 1",
+                    value::number(count)
+                );
+                return Err(Diagnostic::error("bad-scatter", title).at(e.span, "").help("try 30").into());
+            }
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let whole = count as usize;
+            *to = whole;
+        }
+        let leaf = self.sheet(&places, &heights, smooth, elements, span)?;
+        self.leaf_at(leaf, at, "a coordinate of SCATTER")
+    }
+
+    /// The sheet of those values, solved once in a session.
+    fn sheet(
+        &mut self,
+        at: &[[f64; 2]],
+        values: &[f64],
+        smooth: f64,
+        n: [usize; 2],
+        span: Span,
+    ) -> Lowered<Arc<dyn Leaf>> {
+        let mut words: Vec<u64> = at.iter().flatten().chain(values).chain([&smooth]).map(|v| v.to_bits()).collect();
+        words.extend(n.map(|n| n as u64));
+        if let Some(leaf) = self.files.sheets.get(&words) {
+            return Ok(leaf.clone());
+        }
+        let context = data::Context { limits: self.world.limits, interrupt: self.world.interrupt };
+        let leaf = scatter::sheet(at, values, smooth, n, context).map_err(|e| match e {
+            ScatterError::Cancelled => super::Fault::Cancelled,
+            e => Diagnostic::error("bad-scatter", e.to_string()).at(span, "").help(e.help()).into(),
+        })?;
+        // A session that moves a slider would keep all that it passed.
+        if self.files.sheets.len() >= SHEETS {
+            self.files.sheets.clear();
+        }
+        self.files.sheets.insert(words, leaf.clone());
+        Ok(leaf)
+    }
+
+    fn plain_number(&mut self, e: &Expr, what: &str) -> Lowered<f64> {
+        match self.scalar(e, what)? {
+            Scalar::Number(value) => Ok(value),
+            Scalar::Node(_) => {
+                let title = format!("{what} is a number, the same everywhere");
+                Err(Diagnostic::error("bad-scatter", title).at(e.span, "").help("use a number or a parameter").into())
+            }
+        }
     }
 
     /// The function that a file makes, which `make` makes if it is not known; what there is to tell is told each time.

@@ -123,6 +123,9 @@ impl Lower<'_> {
             Special::Interpolate => return self.interpolate(builtin, arguments, span),
             Special::Question(question) => return self.question(question, arguments, span),
             Special::Mesh => return self.mesh(builtin, arguments, span),
+            Special::Scatter => return self.scatter(builtin, arguments, span),
+            Special::Height => return self.height(arguments),
+            Special::Fit => return self.fit(builtin, arguments, span),
         };
         self.fold_array(op, builtin, &arguments[0], span)
     }

@@ -9,6 +9,7 @@ mod call;
 mod data;
 mod expr;
 mod extremum;
+mod fit;
 mod fold;
 mod measured;
 mod nearest;

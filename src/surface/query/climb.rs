@@ -7,6 +7,8 @@ use crate::vm::Gradients;
 
 /// Steps of a climb.
 const STEPS: usize = 80;
+/// A climb ends where what is missing is so many times what the radius may bring.
+const HOPELESS: f64 = 20.0;
 /// Turns in which the weights of the conditions are found; the direction need not be the best.
 const TURNS: usize = 30;
 
@@ -76,6 +78,11 @@ pub(super) fn climb(
     for _ in 0..STEPS {
         interrupt.tick()?;
         if here.met || radius < 1e-17 * size || here.least() == f64::NEG_INFINITY {
+            break;
+        }
+        // Within the radius the linear forms come nowhere near: this is a summit below the water.
+        let steepest = here.slopes.iter().map(|slope| norm(slope)).fold(0.0, f64::max);
+        if -here.least() > HOPELESS * radius * steepest {
             break;
         }
         let Some(way) = uphill(&here, radius) else { break };

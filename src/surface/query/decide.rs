@@ -4,13 +4,13 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-use super::climb::{climb, tangents};
+use super::climb::climb;
 use super::linear::{Linear, contract, excludes, fails};
 use super::{Conditions, Near, Verdict};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::{Interval, Unary};
 use crate::surface::space::{FAR, middle, squeezed};
-use crate::vm::{Boxes, Gradients, Program};
+use crate::vm::{Boxes, Gradients, Points, Program};
 
 /// Units in the last place of the coordinates within which objects that touch cannot be told from objects that just miss each other.
 const ULPS: f64 = 4.0;
@@ -69,6 +69,7 @@ struct Search<'a> {
     conditions: &'a mut Conditions,
     space: &'a [[f64; 2]],
     boxes: Boxes,
+    points: Points<f64>,
     gradients: Gradients,
     interrupt: &'a Interrupt,
     heap: BinaryHeap<Part>,
@@ -101,6 +102,7 @@ pub fn decide(
         conditions,
         space: &near,
         boxes: Boxes::heeding(interrupt),
+        points: Points::heeding(interrupt),
         gradients: Gradients::heeding(interrupt),
         interrupt,
         heap: BinaryHeap::new(),
@@ -130,7 +132,7 @@ impl Search<'_> {
             popped += 1;
             if popped == next_climb && self.found.is_none() {
                 // Seldom at last: boxes alone prove that there is nothing.
-                next_climb += 1 + next_climb / 2;
+                next_climb = 2 * next_climb + 2;
                 self.climb(&part)?;
             }
             if let Some(point) = self.found.take() {
@@ -185,6 +187,17 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// Whether a point meets all conditions.
+    fn meets(&mut self, point: &[f64]) -> bool {
+        let columns: Vec<[f64; 1]> = point.iter().map(|&c| [c]).collect();
+        let slices: Vec<&[f64]> = columns.iter().map(<[f64; 1]>::as_slice).collect();
+        self.conditions.all.iter().all(|condition| {
+            let mut value = [0.0];
+            self.points.eval(&condition.value, &slices, &mut value);
+            (value[0] >= 0.0) != condition.outside
+        })
+    }
+
     /// Whether rounding hides that the objects meet at a point: within some units in the last place of its coordinates no condition can be told
     /// to fail.
     fn touch(&mut self, point: &[f64]) -> bool {
@@ -229,7 +242,7 @@ impl Search<'_> {
                 continue;
             }
             self.rate(&mut part, &linear);
-            if part.score > 0.0 && tangents(self.conditions, &middle, &mut self.gradients).met {
+            if part.score > 0.0 && self.meets(&middle) {
                 self.found.get_or_insert(middle);
                 return Ok(());
             }

@@ -3,8 +3,8 @@
 use rustc_hash::FxHashMap;
 
 use super::super::sampler::Sampler;
-use super::solve::Local;
-use super::study::Study;
+use super::solve::{Local, Meeting, Scale, meet};
+use super::study::{Site, Study};
 use crate::reuse::Digest;
 use crate::vm::Program;
 
@@ -45,7 +45,12 @@ impl Atlas {
         }
         for (study, numbers) in studies.iter_mut().zip(&all) {
             for &(vertex, piece, normal) in &study.on {
-                self.known.insert((vertex, self.surface(numbers[piece])), Some(normal));
+                let surface = self.surface(numbers[piece]);
+                // A vertex that is not on one piece of a surface may be on another.
+                if normal.is_some() || self.members[&surface].len() == 1 {
+                    let known = self.known.entry((vertex, surface)).or_insert(normal);
+                    *known = known.or(normal);
+                }
             }
             let sites = study.facets.iter_mut().flat_map(|facet| facet.sites());
             for on in sites.flat_map(|site| &mut site.on) {
@@ -79,6 +84,22 @@ impl Atlas {
     /// Notes that a vertex lies on a surface.
     pub(super) fn note(&mut self, vertex: u32, surface: usize, normal: [f64; 3]) {
         self.known.insert((vertex, surface), Some(normal));
+    }
+
+    /// The point near a place where surfaces meet, with their normals.
+    pub(super) fn corner(&mut self, surfaces: &[usize], from: [f64; 3], scale: &Scale) -> Option<Site> {
+        let pieces: Vec<&Program> = surfaces.iter().map(|&surface| &self.pieces[surface]).collect();
+        match meet(&pieces, &[from], None, scale, &mut self.sampler).pop() {
+            Some(Meeting::At(at, locals)) => {
+                Some(Site { at, on: surfaces.iter().copied().zip(locals.iter().map(Local::normal)).collect() })
+            }
+            _ => None,
+        }
+    }
+
+    /// Forgets what is known of a vertex that is moved.
+    pub(super) fn forget(&mut self, vertex: u32) {
+        self.known.retain(|(known, _), _| *known != vertex);
     }
 
     /// The normal of a surface at a vertex that lies on it.

@@ -14,6 +14,7 @@ mod caps;
 mod corners;
 mod fill;
 mod net;
+mod open;
 mod patches;
 mod sew;
 mod solve;

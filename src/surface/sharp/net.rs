@@ -27,6 +27,13 @@ pub(super) struct Piece {
     is_alive: bool,
 }
 
+impl Piece {
+    /// Whether it lies on no one surface.
+    pub(super) fn is_off(&self) -> bool {
+        self.surface.is_none()
+    }
+}
+
 /// The triangles about creases.
 pub(super) struct Net<'a> {
     mesh: &'a Mesh,

@@ -102,8 +102,8 @@ pub(super) fn by_cells(mesh: &Mesh, ranges: &[(usize, Range<usize>)], cells: &Ce
 /// The polygons that the triangles of one cell fill, in the order of their first sides.
 pub(super) fn polygons(mesh: &Mesh, numbers: &[usize]) -> Vec<Polygon> {
     let triangle = |&t: &usize| mesh.triangles[t];
-    let sides = || numbers.iter().map(triangle).flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let mut border: Vec<[u32; 2]> = sides().filter(|&[a, b]| !sides().any(|side| side == [b, a])).collect();
+    let sides: Vec<[u32; 2]> = numbers.iter().map(triangle).flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+    let mut border: Vec<[u32; 2]> = sides.iter().filter(|[a, b]| !sides.contains(&[*b, *a])).copied().collect();
     let mut all = Vec::new();
     while let Some(&[first, _]) = border.first() {
         let (mut corners, mut at) = (Vec::new(), first);

@@ -8,7 +8,7 @@ use super::super::check::{Fault, check_about};
 use super::super::marching::{Extraction, SurfaceError};
 use super::super::mesh::{Mesh, cross, minus, unit};
 use super::atlas::Atlas;
-use super::net::Net;
+use super::net::{Net, Piece};
 use super::solve::Scale;
 use super::study::{Facet, Fill, Site};
 use super::torn::Parts;
@@ -29,6 +29,8 @@ pub(super) struct Sewing<'a> {
     new: Vec<[f64; 3]>,
     surfaces: Vec<Vec<usize>>,
     is_free: Vec<bool>,
+    /// Whether one was moved to a corner that it shares with a neighbour.
+    is_shared: Vec<bool>,
     /// The polygon of each new vertex.
     facet_of: Vec<usize>,
     /// The numbers of the new vertices of a polygon: of its parts, then of its sides.
@@ -82,11 +84,25 @@ struct Sewn {
 impl<'a> Sewing<'a> {
     pub(super) fn new(extraction: &'a Extraction, facets: Vec<Facet>, atlas: Atlas, scale: Scale) -> Self {
         let mesh = &extraction.mesh;
-        let (new, surfaces, is_free, facet_of, numbers) = Default::default();
+        let (new, surfaces, is_free, is_shared, facet_of, numbers) = Default::default();
         let (parts, torn, kept) = Default::default();
         let own = extraction.own;
-        let mut sewing =
-            Self { mesh, own, facets, atlas, scale, new, surfaces, is_free, facet_of, numbers, parts, torn, kept };
+        let mut sewing = Self {
+            mesh,
+            own,
+            facets,
+            atlas,
+            scale,
+            new,
+            surfaces,
+            is_free,
+            is_shared,
+            facet_of,
+            numbers,
+            parts,
+            torn,
+            kept,
+        };
         for number in 0..sewing.facets.len() {
             let facet = &mut sewing.facets[number];
             let (parts, sides) = (std::mem::take(&mut facet.parts), std::mem::take(&mut facet.sides));
@@ -110,6 +126,7 @@ impl<'a> Sewing<'a> {
         surfaces.dedup();
         self.surfaces.push(surfaces);
         self.is_free.push(is_free);
+        self.is_shared.push(false);
         self.facet_of.push(facet);
         site.on.iter().for_each(|&(surface, normal)| self.atlas.note(number, surface, normal));
         number
@@ -122,7 +139,9 @@ impl<'a> Sewing<'a> {
             let is_last = round + 1 == ROUNDS;
             let (triangles, gone, wrong) = self.net();
             if !wrong.is_empty() && !is_last {
-                self.leave_out(&wrong);
+                if !self.share_corners(&wrong) {
+                    self.leave_out(&self.facets_of(&wrong));
+                }
                 continue;
             }
             if triangles.is_empty() {
@@ -161,6 +180,49 @@ impl<'a> Sewing<'a> {
         let Some(parts) = self.parts.as_ref().filter(|_| !self.torn.is_empty()) else { return false };
         let part = parts.part(self.mesh.triangles[self.facets[facet].plain[0]][0]);
         part.is_some_and(|part| self.torn.contains(&part))
+    }
+
+    /// The polygons of triangles and of their new vertices.
+    fn facets_of(&self, wrong: &[Piece]) -> Vec<usize> {
+        let known = self.mesh.positions.len();
+        let mut all: Vec<usize> = wrong.iter().filter_map(|piece| piece.facet.map(|facet| facet as usize)).collect();
+        let corners = wrong.iter().flat_map(|piece| piece.corners);
+        all.extend(corners.filter_map(|v| (v as usize).checked_sub(known)).map(|new| self.facet_of[new]));
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// Where the new vertices of two polygons that share a side have no surface in common with an old one between them, a corner is so near the
+    /// side that neither polygon holds all of its surfaces: both vertices go there, once. Whether there are any.
+    fn share_corners(&mut self, wrong: &[Piece]) -> bool {
+        let known = self.mesh.positions.len();
+        let mut is_any = false;
+        for piece in wrong.iter().filter(|piece| piece.is_off()) {
+            let new: Vec<usize> = piece.corners.iter().filter_map(|&v| (v as usize).checked_sub(known)).collect();
+            let &[a, b] = &new[..] else { continue };
+            let mut surfaces = [&self.surfaces[a][..], &self.surfaces[b]].concat();
+            surfaces.sort_unstable();
+            surfaces.dedup();
+            if self.is_shared[a] || self.is_shared[b] || surfaces.len() > 4 {
+                continue;
+            }
+            let from = std::array::from_fn(|d| 0.5 * (self.new[a][d] + self.new[b][d]));
+            let Some(site) = self.atlas.corner(&surfaces, from, &self.scale) else { continue };
+            if self.scale.cells(from, site.at).iter().any(|way| way.abs() > 1.0) {
+                continue;
+            }
+            for new in [a, b] {
+                self.is_shared[new] = true;
+                self.new[new] = site.at;
+                self.surfaces[new].clone_from(&surfaces);
+                let vertex = (known + new) as u32;
+                self.atlas.forget(vertex);
+                site.on.iter().for_each(|&(surface, normal)| self.atlas.note(vertex, surface, normal));
+            }
+            is_any = true;
+        }
+        is_any
     }
 
     /// Leaves out polygons; or, if some are on small parts that may have been torn off, all of those parts.
@@ -211,8 +273,8 @@ impl<'a> Sewing<'a> {
         .collect()
     }
 
-    /// The new triangles, the triangles of the mesh that they replace, and the polygons with a triangle that is turned or on no surface.
-    fn net(&mut self) -> (Vec<[u32; 3]>, Vec<u32>, Vec<usize>) {
+    /// The new triangles, the triangles of the mesh that they replace, and those that are turned or on no surface.
+    fn net(&mut self) -> (Vec<[u32; 3]>, Vec<u32>, Vec<Piece>) {
         let sharp: Vec<bool> = (0..self.facets.len()).map(|facet| self.is_sharp(facet)).collect();
         let mut gone: Vec<u32> = Vec::new();
         for (facet, _) in self.facets.iter().zip(&sharp).filter(|(_, is_sharp)| **is_sharp) {
@@ -249,15 +311,8 @@ impl<'a> Sewing<'a> {
         if !ailing.is_empty() {
             let (about, complete) = look_about(self.mesh, self.own, &self.facets, &ailing, &gone);
             about.into_iter().for_each(|t| net.add(self.mesh.triangles[t as usize], Some(t), None));
-            let known = self.mesh.positions.len();
-            for piece in net.mend(complete) {
-                wrong.extend(piece.facet.map(|facet| facet as usize));
-                let new = piece.corners.iter().filter_map(|&corner| (corner as usize).checked_sub(known));
-                wrong.extend(new.map(|new| self.facet_of[new]));
-            }
+            wrong = net.mend(complete);
         }
-        wrong.sort_unstable();
-        wrong.dedup();
         let (triangles, replaced) = net.result();
         gone.extend(replaced);
         (triangles, gone, wrong)

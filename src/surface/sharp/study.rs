@@ -8,6 +8,7 @@ use super::super::grid::{Grid, LEAF};
 use super::super::mesh::Mesh;
 use super::super::sampler::Sampler;
 use super::fill::{Corner, Surfaces, cut};
+use super::open::{AROUND, Candidate, Open, Question, Stage};
 use super::patches::{Cells, by_cells, polygons};
 use super::solve::{Local, Meeting, Scale, meet};
 use super::{Plain, Work};
@@ -17,6 +18,8 @@ use crate::vm::{Pieces, Program, Shape};
 const ROUNDS: usize = 16;
 /// Surfaces that a corner may get when it turns out not to be on the boundary.
 const UNSEEN: usize = 2;
+/// Parts of the way from a corner to such a point.
+const STEPS: usize = 8;
 /// How far from the middle of its polygon a point may lie, in cells.
 const REACH: f64 = 6.0;
 
@@ -67,8 +70,8 @@ pub(super) struct Study {
     pub(super) pieces: Vec<Program>,
     /// Pieces that go over into each other without a crease.
     pub(super) smooth: Vec<[usize; 2]>,
-    /// The pieces on which vertices lie, with their normals.
-    pub(super) on: Vec<(u32, usize, [f64; 3])>,
+    /// Vertices and pieces, with the normals of those on which they lie.
+    pub(super) on: Vec<(u32, usize, Option<[f64; 3]>)>,
     /// The polygons.
     pub(super) facets: Vec<Facet>,
 }
@@ -82,102 +85,6 @@ pub(super) struct Student<'a> {
     pub(super) shape: &'a Shape,
     pub(super) sampler: Sampler,
     pub(super) tracer: Pieces,
-}
-
-/// What is asked about a polygon next.
-enum Stage {
-    /// Where the pieces of its sides meet, two by two.
-    Pairs,
-    /// Where these pieces meet.
-    Corner(Vec<usize>),
-    Done,
-}
-
-/// A polygon, or a part of one, about which questions are open.
-struct Open {
-    facet: usize,
-    cell: [usize; 3],
-    corners: Vec<Corner>,
-    /// The pieces, by their bits.
-    numbers: Vec<usize>,
-    surfaces: Surfaces,
-    stage: Stage,
-    unseen: usize,
-    /// A place within the space from which to look for them in the plane across an axis.
-    aim: Option<(usize, [f64; 3])>,
-}
-
-/// A question: where these pieces meet near a place, in the plane across an axis if there is one.
-struct Question {
-    open: usize,
-    pieces: Vec<usize>,
-    axis: Option<usize>,
-    from: [f64; 3],
-    /// The side that asks.
-    side: Option<[u32; 2]>,
-}
-
-/// A point where pieces meet.
-struct Candidate {
-    open: usize,
-    pieces: Vec<usize>,
-    at: [f64; 3],
-    locals: Vec<Local>,
-}
-
-impl Candidate {
-    /// Whether it is on the boundary of the whole, which has this value there, not only on those of the pieces.
-    fn is_boundary(&self, value: f64, scale: &Scale) -> bool {
-        Local { value, ..self.locals[0] }.distance() <= 4.0 * scale.near
-    }
-
-    fn site(&self, at: [f64; 3]) -> Site {
-        Site { at, on: self.pieces.iter().copied().zip(self.locals.iter().map(Local::normal)).collect() }
-    }
-}
-
-impl Open {
-    fn bit(&self, piece: usize) -> usize {
-        self.numbers.iter().position(|&number| number == piece).unwrap_or(0)
-    }
-
-    /// The positions in the ring where sides begin whose ends have no surface in common.
-    fn crossed(&self) -> Vec<usize> {
-        let n = self.corners.len();
-        let pair = |i: usize| [&self.corners[i], &self.corners[(i + 1) % n]];
-        (0..n).filter(|&i| self.surfaces.common(pair(i)) == 0).collect()
-    }
-
-    /// The middle of a side.
-    fn middle(&self, side: usize) -> [f64; 3] {
-        let [a, b] = [self.corners[side].at, self.corners[(side + 1) % self.corners.len()].at];
-        std::array::from_fn(|d| 0.5 * (a[d] + b[d]))
-    }
-
-    /// One piece of each corner of the ring.
-    fn piece(&self, corner: usize) -> usize {
-        self.numbers[self.corners[corner].on.trailing_zeros() as usize % self.numbers.len()]
-    }
-
-    /// One piece of each surface that the ring needs, ascending.
-    fn surfaces_needed(&self) -> Vec<usize> {
-        let mut taken = 0_u64;
-        let wholes: Vec<u64> = self.corners.iter().map(|corner| self.surfaces.whole(corner.on)).collect();
-        let first = |whole: u64| self.surfaces.of[whole.trailing_zeros() as usize];
-        let mut needed = Vec::new();
-        // Corners on one surface first: the others may do with what these need.
-        for is_single in [true, false] {
-            for &whole in &wholes {
-                let surface = first(whole);
-                if whole & taken == 0 && (whole == surface) == is_single {
-                    taken |= surface;
-                    needed.push(self.numbers[surface.trailing_zeros() as usize]);
-                }
-            }
-        }
-        needed.sort_unstable();
-        needed
-    }
 }
 
 impl Student<'_> {
@@ -258,9 +165,8 @@ impl Student<'_> {
         }
         for &(piece, v) in &wanted {
             let local = known[&(piece, v)];
-            if piece_of[&v] == piece || local.distance() <= self.scale.near {
-                study.on.push((v, piece, local.normal()));
-            }
+            let is_on = piece_of[&v] == piece || local.distance() <= self.scale.near;
+            study.on.push((v, piece, is_on.then(|| local.normal())));
         }
         let mut opens = Vec::new();
         for (facet, (cell, ring)) in rings.iter().enumerate() {
@@ -314,7 +220,8 @@ impl Student<'_> {
 
     fn questions(&self, opens: &[Open]) -> Vec<Question> {
         let mut questions = Vec::new();
-        for (number, open) in opens.iter().enumerate() {
+        let asking = opens.iter().enumerate().filter(|(_, open)| !matches!(open.stage, Stage::Done));
+        for (number, open) in asking {
             let crossed = open.crossed();
             let n = open.corners.len();
             let mean = |sides: &[usize]| -> [f64; 3] {
@@ -467,9 +374,10 @@ impl Student<'_> {
         let (within, beyond): (Vec<Candidate>, Vec<Candidate>) = candidates.into_iter().partition(is_near);
         let shape = self.shape;
         for (program, candidates) in [(&work.program, within), (&*shape.program, beyond)] {
-            let places: Vec<[f64; 3]> = candidates.iter().map(|candidate| candidate.at).collect();
+            let places: Vec<[f64; 3]> = candidates.iter().flat_map(|candidate| candidate.around(&self.scale)).collect();
             let values = Local::values(program, &places, &mut self.sampler);
-            for (candidate, value) in candidates.into_iter().zip(values) {
+            for (candidate, values) in candidates.into_iter().zip(values.chunks(AROUND)) {
+                let value = values[0];
                 let open = &mut opens[candidate.open];
                 let middle = open.middle(open.crossed().first().copied().unwrap_or(0));
                 let far = self.scale.cells(middle, candidate.at).iter().any(|way| way.abs() > REACH);
@@ -484,6 +392,15 @@ impl Student<'_> {
                     open.aim = Some(aim);
                     open.stage = Stage::Corner(candidate.pieces);
                 } else if candidate.is_boundary(value, &self.scale) {
+                    // One of the surfaces may end before it gets there.
+                    let ends = open.unseen < UNSEEN && !candidate.is_crease(values);
+                    let open = &opens[candidate.open];
+                    let unseen = if ends { self.ends_at(program, open, &candidate, &mut study.pieces) } else { None };
+                    let open = &mut opens[candidate.open];
+                    if let Some(unseen) = unseen {
+                        open.look_further(candidate.pieces, unseen);
+                        continue;
+                    }
                     let ring = open.corners.iter().map(|corner| corner.vertex).collect();
                     study.facets[open.facet].parts.push((ring, Fill::Fan(candidate.site(candidate.at))));
                     open.stage = Stage::Done;
@@ -491,18 +408,34 @@ impl Student<'_> {
                     fail(open, study, Plain::Hidden);
                 } else {
                     let unseen = trace(&mut self.tracer, shape, program, &[candidate.at], &mut study.pieces)[0];
-                    let mut pieces = candidate.pieces;
-                    if pieces.contains(&unseen) {
+                    if candidate.pieces.contains(&unseen) {
                         fail(open, study, Plain::Hidden);
-                        continue;
+                    } else {
+                        open.look_further(candidate.pieces, unseen);
                     }
-                    open.unseen += 1;
-                    pieces.push(unseen);
-                    pieces.sort_unstable();
-                    open.stage = Stage::Corner(pieces);
                 }
             }
         }
+    }
+
+    /// The piece that takes over where one goes from the corners of a polygon to a point on their pieces, if there is one.
+    fn ends_at(
+        &mut self,
+        program: &Program,
+        open: &Open,
+        candidate: &Candidate,
+        pieces: &mut Vec<Program>,
+    ) -> Option<usize> {
+        let way = |corner: &Corner| {
+            let from = corner.at;
+            (1..STEPS).map(move |k| {
+                let share = k as f64 / STEPS as f64;
+                std::array::from_fn(|d| from[d] + share * (candidate.at[d] - from[d]))
+            })
+        };
+        let places: Vec<[f64; 3]> = open.corners.iter().flat_map(way).collect();
+        let found = trace(&mut self.tracer, self.shape, program, &places, pieces);
+        found.into_iter().find(|piece| !candidate.pieces.contains(piece))
     }
 
     /// Whether the program of the leaf of a cell is right at a place.
