@@ -183,7 +183,7 @@ impl Scene {
 
 fn built_in(name: &str, all: &[f64]) -> f64 {
     let a = all[0];
-    let arc: [(&str, fn(f64) -> f64); 3] = [("asin", f64::asin), ("acos", f64::acos), ("atan", f64::atan)];
+    let arc = [("asin", f64::asin as fn(f64) -> f64), ("acos", f64::acos), ("atan", f64::atan)];
     if let Some((_, arc)) = arc.iter().find(|arc| arc.0 == name) {
         return arc(a);
     }
