@@ -256,8 +256,10 @@ fn may_refuse(format: Format, code: &str, subject: &Subject) -> bool {
     match (format.kind(), code) {
         (Kind::Mesh, "dimension") => axes != 3,
         (Kind::Outlines, "dimension") => axes < 2,
-        // A plate thinner than these cells, and below the sections.
-        (_, "empty-object") => &*subject.name == "gob_shadow",
+        // Thinner than these cells, or beside the sections.
+        (_, "empty-object") => {
+            ["gob_shadow", "gob_flame", "gob_ribbon", "gob_table", "gob_block"].contains(&&*subject.name)
+        }
         (_, "type-not-shown") => !subject.is_single() || subject.columns.is_some() || subject.rows.is_some(),
         _ => false,
     }
