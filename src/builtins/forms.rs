@@ -243,6 +243,6 @@ pub(super) static TABLE: &[Builtin] = &[
         &["residual", "start", "points"],
         "The array of parameters for which the squares of residual(parameters, point), summed over the rows of points, are least, sought from \
          `start` by Levenberg and Marquardt with exact derivatives. The residual is a function of two arrays; its value may be an array.",
-        ("FIT(fn_line_residual, [0, 1], [[0, 1], [1, 3], [2, 5]])[2]", 2.0),
+        ("ROUND(1000*FIT(fn_line_residual, [0, 1], [[0, 1], [1, 3], [2, 5]])[2])", 2000.0),
     ),
 ];
