@@ -16,7 +16,8 @@ pub use table::{Arity, Builtin, Special, Subject, Term};
 pub use table::{Meaning, WrongCount};
 
 /// All built-ins, by subject and within it in reading order.
-pub static TABLE: &[&[Builtin]] = &[waves::TABLE, angles::TABLE, powers::TABLE, choices::TABLE, forms::TABLE, questions::TABLE];
+pub static TABLE: &[&[Builtin]] =
+    &[waves::TABLE, angles::TABLE, powers::TABLE, choices::TABLE, forms::TABLE, questions::TABLE];
 
 /// All built-ins in the table's order.
 pub fn all() -> impl Iterator<Item = &'static Builtin> {

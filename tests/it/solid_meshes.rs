@@ -212,7 +212,7 @@ fn turned_hollow_and_nearly_closed_meshes_are_what_was_meant() {
     let hollow = plain.clone() + &shift(&cube(0.5, true));
     let turned = plain.replacen("f 1 3 4 2", "f 2 4 3 1", 1);
     let cases = [
-        (plain.clone(), [1.0, 0.8, 0.0], 0),
+        (plain, [1.0, 0.8, 0.0], 0),
         (cube(1.0, true), [1.0, 0.8, 0.0], 0),
         (turned, [1.0, 0.8, 0.0], 2),
         (hollow, [-0.5, -0.3, 0.0], 0),

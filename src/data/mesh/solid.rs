@@ -219,13 +219,12 @@ fn beyond(at: &[f64]) -> f64 {
 #[inline(always)]
 fn distances(node: &super::tree::Node, p: V) -> [f64; 4] {
     let mut squares = [0.0; 4];
-    for axis in 0..3 {
-        for k in 0..4 {
-            let below = node.lo[axis][k] - p[axis];
-            let above = p[axis] - node.hi[axis][k];
+    for ((lo, hi), p) in node.lo.iter().zip(&node.hi).zip(p) {
+        for ((lo, hi), square) in lo.iter().zip(hi).zip(&mut squares) {
+            let (below, above) = (lo - p, p - hi);
             let side = if below > above { below } else { above };
             let side = if side > 0.0 { side } else { 0.0 };
-            squares[k] += side * side;
+            *square += side * side;
         }
     }
     squares

@@ -1,5 +1,7 @@
 //! A tree of boxes over triangles, four children a node. Built once, the same for the same triangles; knows boxes only.
 
+use std::cmp::Ordering;
+
 use super::error::MeshError;
 use super::vector::V;
 use crate::interrupt::Interrupt;
@@ -52,9 +54,8 @@ impl Bounds {
     pub(super) const NONE: Self = Self { lo: [f64::INFINITY; 3], hi: [f64::NEG_INFINITY; 3] };
 
     pub(super) fn add(&mut self, p: V) {
-        for k in 0..3 {
-            self.lo[k] = self.lo[k].min(p[k]);
-            self.hi[k] = self.hi[k].max(p[k]);
+        for ((lo, hi), p) in self.lo.iter_mut().zip(&mut self.hi).zip(p) {
+            (*lo, *hi) = (lo.min(p), hi.max(p));
         }
     }
 
@@ -165,7 +166,7 @@ fn bin(at: f64, about: &Bounds, axis: usize) -> usize {
 fn cheapest(items: &[Item], about: &Bounds) -> Option<(usize, usize)> {
     let mut best: Option<(f64, usize, usize)> = None;
     for axis in 0..3 {
-        if !(about.hi[axis] > about.lo[axis]) {
+        if about.hi[axis].partial_cmp(&about.lo[axis]) != Some(Ordering::Greater) {
             continue;
         }
         let mut bins = [(Bounds::NONE, 0usize); BINS];

@@ -150,7 +150,7 @@ impl Lower<'_> {
             return Err(errors::lengths_differ(places.len(), heights.len(), points.span, values.span).into());
         }
         let smooth = self.plain_number(smoothness, "the smoothness of SCATTER")?;
-        if !(smooth >= 0.0 && smooth <= 1e100) {
+        if !(0.0..=1e100).contains(&smooth) {
             let title = format!("the smoothness of SCATTER is {}; it is 0 or more", value::number(smooth));
             let help = "0 follows the values as closely as the elements can, 1 is nearly a plane; try 1e-6";
             return Err(Diagnostic::error("bad-scatter", title).at(smoothness.span, "").help(help).into());

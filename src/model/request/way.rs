@@ -126,8 +126,7 @@ impl Ready {
             Choice::File(path) => {
                 let bytes = session.host.read(path, session.limits.data_bytes).map_err(|error| error.diagnostic())?;
                 let name = path.display().to_string();
-                let surface =
-                    obj::read(&bytes).map_err(|error| bad(&name, &error.to_string()))?;
+                let surface = obj::read(&bytes).map_err(|error| bad(&name, &error.to_string()))?;
                 let guide = Guide::of_mesh(&surface.positions, &surface.triangles);
                 Self::Solid(guide.map_err(|error| bad(&name, &error.to_string()))?)
             }

@@ -143,7 +143,7 @@ impl<T, F: Fn(Tile<'_>) -> T> Caster<'_, T, F> {
             let slices: Vec<&[Interval]> = ranges.iter().map(|range| &range[..count]).collect();
             let mut out = [Interval::point(0.0); BOXES];
             boxes.eval(&self.shape.program, &slices, &mut out[..count]);
-            let is_open = |value: &Interval| !(value.hi < 0.0);
+            let is_open = |value: &Interval| value.hi >= 0.0 || value.hi.is_nan();
             live.iter_mut().zip(out.chunks(SLICES)).for_each(|(live, slices)| *live = slices.iter().any(is_open));
         }
         live

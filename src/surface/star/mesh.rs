@@ -161,9 +161,9 @@ fn batch<const N: usize>(
 #[inline]
 fn face<const N: usize>(gauge: &Gauge, space: &Space, v: &[f64; N]) -> (usize, usize, f64) {
     let mut most = (0, 0, 0.0);
-    for d in 0..N {
-        let side = usize::from(v[d] > 0.0);
-        let value = v[d] / (space.ranges[d][side] - gauge.centre[d]);
+    for (d, &along) in v.iter().enumerate() {
+        let side = usize::from(along > 0.0);
+        let value = along / (space.ranges[d][side] - gauge.centre[d]);
         if value > most.2 && value.is_finite() {
             most = (d, side, value);
         }

@@ -96,7 +96,9 @@ fn distances_that_make_no_sense_are_refused() {
 /// The polylines of a CURVE.
 fn curve(objects: &str) -> Vec<Vec<Vec<f64>>> {
     let session = super::asked(&format!("asked = CURVE({objects});"));
-    let yont::model::Value::Array(lines) = session.value("asked").unwrap().unwrap() else { panic!("no array") };
+    let yont::model::Value::Array(lines) = session.value("asked").expect("a value").expect("asked") else {
+        panic!("no array")
+    };
     let points = |line: &yont::model::Value| match line {
         yont::model::Value::Array(points) => points.items().iter().map(flat).collect::<Vec<_>>(),
         other => panic!("{other:?} is no polyline"),
