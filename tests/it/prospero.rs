@@ -192,7 +192,9 @@ fn the_picture_of_the_script_is_right_at_every_pixel() {
         begun.elapsed(),
         written.lines
     );
-    let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().expect("a picture");
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(&bytes));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().expect("a picture");
     let mut pixels = vec![0; reader.output_buffer_size().expect("small")];
     let frame = reader.next_frame(&mut pixels).expect("pixels");
     assert_eq!((frame.width as usize, frame.height as usize), (side, side));

@@ -1,6 +1,8 @@
 //! Nodes of a graph as pieces of text, each with the level of its outermost operator, joined with as few brackets as the grammar needs.
 //! Never recurses: operands come before what reads them.
 
+use std::collections::BTreeSet;
+
 use rustc_hash::FxHashMap;
 
 use super::{InForce, in_force};
@@ -66,6 +68,8 @@ pub(super) struct Writer<'a> {
     uses: FxHashMap<NodeId, usize>,
     main: Option<InForce>,
     leaves: Leaves<'a>,
+    /// The coordinates that no text names, each with one that the nodes do not use.
+    renamed: FxHashMap<Coordinate, Coordinate>,
     parts: FxHashMap<NodeId, Part>,
     bindings: Vec<(String, String)>,
     rewritten: bool,
@@ -80,7 +84,8 @@ impl<'a> Writer<'a> {
         leaves: impl Fn(&SharedLeaf) -> Option<String> + 'a,
     ) -> Self {
         let (parts, bindings) = Default::default();
-        Self { graph, uses, main, leaves: Box::new(leaves), parts, bindings, rewritten: false }
+        let renamed = renamed(graph, uses.keys());
+        Self { graph, uses, main, leaves: Box::new(leaves), renamed, parts, bindings, rewritten: false }
     }
 
     /// The names that were given to parts, in their order, and whether an operation was written out.
@@ -134,7 +139,7 @@ impl<'a> Writer<'a> {
                 let level = if text.starts_with('-') { Level::Sign } else { Level::Postfix };
                 Part::new(level, text, 0)
             }
-            Node::Coordinate(c) => Part::new(Level::Postfix, c.to_string(), 0),
+            Node::Coordinate(c) => Part::new(Level::Postfix, self.coordinate(*c)?, 0),
             Node::Unary(op, a) => self.unary(*op, *a),
             Node::Binary(op, a, b) => self.binary(*op, *a, *b),
             Node::Ternary(op, [a, b, c]) => self.ternary(*op, *a, *b, *c),
@@ -142,7 +147,7 @@ impl<'a> Writer<'a> {
                 let words = (self.leaves)(leaf).ok_or("it holds data without a file")?;
                 self.call(&format!("{words}, "), arguments)
             }
-            Node::Map(body, mapping) => self.map(*body, mapping),
+            Node::Map(body, mapping) => self.map(*body, mapping)?,
             Node::Region(..) => return Err("a part of it searches or runs a loop at each point".into()),
         })
     }
@@ -296,17 +301,42 @@ impl<'a> Writer<'a> {
         Part::new(Level::Product, text, 3)
     }
 
-    fn map(&mut self, body: NodeId, mapping: &[(Coordinate, NodeId)]) -> Part {
+    /// The name of a coordinate.
+    fn coordinate(&self, c: Coordinate) -> Result<String, String> {
+        match self.renamed.get(&c) {
+            Some(name) => Ok(name.to_string()),
+            None if usize::from(c.0) > Coordinate::NAMED => Err("it moves more coordinates than have names".into()),
+            None => Ok(c.to_string()),
+        }
+    }
+
+    fn map(&mut self, body: NodeId, mapping: &[(Coordinate, NodeId)]) -> Result<Part, String> {
         let body = self.operand(body, Level::Postfix);
         let mut depth = body.depth;
         let mut named = Vec::with_capacity(mapping.len());
         for (c, e) in mapping {
             let e = self.operand(*e, Level::If);
             depth = depth.max(e.depth + 1);
-            named.push(format!("{c} = {}", e.text));
+            named.push(format!("{} = {}", self.coordinate(*c)?, e.text));
         }
-        Part::new(Level::Postfix, format!("{} AT ({})", body.text, named.join(", ")), depth)
+        Ok(Part::new(Level::Postfix, format!("{} AT ({})", body.text, named.join(", ")), depth))
     }
+}
+
+/// Names for the coordinates of some nodes that have none, the last that are free; as far as there are free ones.
+fn renamed<'a>(graph: &Graph, nodes: impl Iterator<Item = &'a NodeId>) -> FxHashMap<Coordinate, Coordinate> {
+    let mut used = BTreeSet::new();
+    for node in nodes {
+        match graph.node(*node) {
+            Node::Coordinate(c) => used.extend([*c]),
+            Node::Map(_, mapping) => used.extend(mapping.iter().map(|(c, _)| *c)),
+            _ => {}
+        }
+    }
+    #[allow(clippy::cast_possible_truncation)]
+    let named = Coordinate(Coordinate::NAMED as u8);
+    let free = (1..=named.0).rev().map(Coordinate).filter(|c| !used.contains(c));
+    used.iter().copied().filter(|c| *c > named).zip(free.collect::<Vec<_>>()).collect()
 }
 
 /// The name of the built-in with that meaning; each operation has one.
