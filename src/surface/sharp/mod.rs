@@ -3,10 +3,10 @@
 //!
 //! A crease is where pieces of the function meet: the branches of set operations, `MAX`, `MIN`, `ABS`, `IF` and `MOD`. Every vertex of the cubes' mesh knows
 //! its piece ([`Pieces`]). A polygon of a cell whose corners lie on different pieces has a crease or a corner of the solid near it: the point that lies on
-//! all of them, found by Newton's method, becomes the middle of a fan, wherever it lies ([`study`]). A side between two such polygons that no
+//! all of them, found by Newton's method, becomes the middle of a fan, wherever it lies (`study`). A side between two such polygons that no
 //! surface holds is turned into one from middle to middle, along the crease (after Kobbelt, Botsch, Schwanecke and Seidel, "Feature sensitive surface
-//! extraction from volume data", 2001); so the triangles of a polyhedron lie in its faces ([`sew`]). Where a crease sticks out of its cell triangles
-//! are turned over by that: they are flipped, and middles that have changed places are drawn together ([`net`]). Fans, flips and drawing together
+//! extraction from volume data", 2001); so the triangles of a polyhedron lie in its faces (`sew`). Where a crease sticks out of its cell triangles
+//! are turned over by that: they are flipped, and middles that have changed places are drawn together (`net`). Fans, flips and drawing together
 //! with their conditions keep the mesh as closed and as much of a manifold as it was. A polygon whose triangles stay turned stays plain.
 
 mod atlas;
