@@ -170,6 +170,16 @@ impl Camera {
         (start, direction)
     }
 
+    /// Where a point is on the picture, as (u, v) of [`Camera::ray`]; `None` if the eye is not before it.
+    #[must_use]
+    pub fn place(&self, point: [f64; 3]) -> Option<[f64; 2]> {
+        let away: [f64; 3] = std::array::from_fn(|k| point[k] - self.eye[k]);
+        let depth = dot(away, self.forward);
+        let half = |axis: usize| self.base[axis] + depth * self.growth[axis];
+        let at = [dot(away, self.right) / half(0), dot(away, self.up) / half(1)];
+        (depth > 0.0 && at.iter().all(|v| v.is_finite())).then_some(at)
+    }
+
     /// The nearest and farthest depth of the box.
     #[must_use]
     pub fn depths(&self, lo: [f64; 3], hi: [f64; 3]) -> (f64, f64) {

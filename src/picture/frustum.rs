@@ -18,6 +18,8 @@ pub(super) struct Frustum {
     cells: usize,
     /// How far rounding may carry a computed point beyond the hull of computed corners.
     slack: f64,
+    /// The first and one past the last column and row of rays that are cast.
+    window: [[usize; 2]; 2],
 }
 
 impl Frustum {
@@ -31,7 +33,13 @@ impl Frustum {
         let cells = ((far - near) / (2.0 * footprint)).ceil().clamp(1.0, 16_384.0) as usize;
         let size =
             (0..3).map(|k| lo[k].abs().max(hi[k].abs()).max(scene.camera.eye[k].abs())).fold(far.abs(), f64::max);
-        Self { scene, near, far, cells: cells.next_multiple_of(LEAF_DEPTH), slack: 1e-13 * size }
+        let window = [[0; 2], scene.rays];
+        Self { scene, near, far, cells: cells.next_multiple_of(LEAF_DEPTH), slack: 1e-13 * size, window }
+    }
+
+    /// The same for a part of the picture: its first column and row, and one past its last ones; it begins at multiples of four tiles.
+    pub(super) fn within(self, window: [[usize; 2]; 2]) -> Self {
+        Self { window, ..self }
     }
 
     pub(super) fn depth(&self, cell: usize) -> f64 {
@@ -61,6 +69,11 @@ impl Lattice for Frustum {
     /// A ray seen whole is as good as the whole space, unless it runs along an axis.
     fn part(&self) -> [usize; 3] {
         [4 * self.scene.tile, 4 * self.scene.tile, 4 * LEAF_DEPTH]
+    }
+
+    fn window(&self) -> Block {
+        let [[left, top], [right, bottom]] = self.window;
+        Block { from: [left, top, 0], to: [right, bottom, self.cells] }
     }
 
     fn tell(&self, to: &mut Digest) -> bool {

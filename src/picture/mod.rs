@@ -11,6 +11,7 @@ mod brush;
 pub mod camera;
 pub mod canvas;
 pub mod contours;
+pub mod easel;
 pub mod extent;
 pub mod field;
 mod frustum;

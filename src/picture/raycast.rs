@@ -221,6 +221,11 @@ pub(super) struct Air {
 }
 
 impl Air {
+    /// Nothing.
+    pub(super) fn clear(lights: Lights) -> Self {
+        Self { lights, ..Self::default() }
+    }
+
     fn cast_shadows(
         &mut self,
         things: &[Thing],

@@ -5,18 +5,20 @@
 //! sample spacing along a ray is found where the function has a maximum between samples, as at silhouettes.
 
 mod algebraic;
+mod search;
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::reuse::Digest;
-use crate::surface::boxes::{Block, Visitor, points, walk_on};
+use crate::surface::boxes::{Block, Visitor, points};
 use crate::surface::memory::Left;
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::{Program, Shape};
 
 pub use algebraic::cast_on;
+pub use search::{search_in, search_on};
 
 use super::camera::Camera;
 use super::frustum::{Frustum, Ray};
@@ -135,25 +137,6 @@ pub fn heights(
         }
     }
     Ok((all, counters))
-}
-
-/// Casts the rays that are wanted by a search, whatever the object is, as a part of a task whose progress was begun already.
-///
-/// # Errors
-/// [`Cancelled`] soon after the interrupt was set.
-pub fn search_on<T: Send>(
-    shape: &Shape,
-    scene: &Scene,
-    aim: Aim<'_>,
-    finish: impl Fn(Tile<'_>) -> T + Sync,
-    interrupt: &Interrupt,
-) -> Result<Tiles<T>, Cancelled> {
-    let frustum = Frustum::new(*scene);
-    let keeps = interrupt.reuse().is_some();
-    let visitor = |block: &Block| Caster::new(&frustum, (shape, aim), block, &finish, keeps);
-    let done = walk_on(&frustum, shape, visitor, interrupt)?;
-    let tiles = done.visitors.into_iter().filter_map(|caster| Some((caster.from, caster.size, caster.result?)));
-    Ok((tiles.collect(), done.counters))
 }
 
 /// Narrowing steps towards a maximum: each leaves 0.618 of the bracket, so its place is known to 1e-5 of a sample's spacing.

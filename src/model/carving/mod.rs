@@ -1,0 +1,583 @@
+//! Interactive carving and chasing: a workpiece of a session, tools, strokes that are ordinary definitions, and a picture of which each stroke
+//! redraws what it touches. Writes no files and shows nothing.
+//!
+//! A stroke is a statement that continues the workpiece, `gob_a = tr_carve(gob_a, tr_shift(pob_sphere_d([0, 0, 0], 0.1), [0, 0, 1]), 0);`, so that
+//! undo, `:save` and everything else know it already. What is kept here can be found again from the definitions at any time: for each stroke
+//! a box outside of which it changes nothing, and where that is on the picture. Source: Pasko and Savchenko 1998, section 3.3.
+
+pub(super) mod errors;
+mod local;
+mod places;
+mod stroke;
+mod tools;
+
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+
+use crate::diagnostic::{Category, Diagnostic};
+use crate::field::{Coordinate, NodeId};
+use crate::number::{Algebra, Binary, Unary};
+use crate::picture::Image;
+use crate::picture::easel::{Easel, Window};
+use crate::picture::raycast::{Space, Thing};
+use crate::surface::sampler::Sampler;
+use crate::surface::space::{Known, Outcome, find, reach};
+use crate::syntax::Mode;
+use crate::vm::{Demand, Program, Shape};
+
+use super::definition::{Definition, DefinitionId};
+use super::request::{Options, Studio, cancelled, studio};
+use super::session::Session;
+use super::state::Kept;
+use super::value::{Scalar, Value};
+use local::Local;
+use stroke::{Form, Stroke, read};
+
+pub use places::places;
+pub use tools::{Spot, TOOLS, Tool, Way};
+
+/// The usual size of a tool, as a part of the longest side of what is shown.
+const UNIT: f64 = 1.0 / 16.0;
+
+/// From stroke to stroke in a line, as a part of the tool's width.
+const STEP: f64 = 0.25;
+
+/// Most strokes of a line.
+const MOST_IN_LINE: f64 = 2_000.0;
+
+/// An answer, or the messages that say why there is none.
+type Asked<T> = Result<T, Vec<Diagnostic>>;
+
+/// A place where a stroke is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// A pixel, from the top left.
+    Pixel([f64; 2]),
+    /// A line of strokes from pixel to pixel; where it leaves the workpiece there are none.
+    Line([f64; 2], [f64; 2]),
+    /// A point of space.
+    Point([f64; 3]),
+}
+
+/// What became of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawn {
+    /// Nothing that it shows has changed.
+    Same,
+    /// So many of its pixels were drawn anew.
+    Part(usize),
+    /// All of it was.
+    Whole,
+}
+
+/// A workpiece that is being carved.
+#[derive(Debug)]
+pub struct Carving {
+    studio: Studio,
+    easel: Easel,
+    /// The workpiece before the first stroke.
+    base: (DefinitionId, NodeId),
+    strokes: Vec<Stroke>,
+    numbers: FxHashMap<DefinitionId, usize>,
+    /// Where tools are about the origin, by their texts and how far beyond their boundaries.
+    boxes: FxHashMap<(Arc<str>, u64), Space>,
+    /// The widest blend of any stroke.
+    widest: f64,
+    local: Local,
+    tool: Tool,
+    /// The picture is not that of the strokes, since the work was stopped.
+    torn: bool,
+    /// Which graph of the session the nodes are of.
+    graphs: u64,
+}
+
+impl Carving {
+    /// Takes an object as the workpiece and draws it; also what there is to say of it. Its space and its camera stay as they are now.
+    ///
+    /// # Errors
+    /// Messages for the user: an object that is no solid of x1, x2, x3, and those of a picture.
+    pub fn begin(session: &mut Session, options: &Options) -> Asked<(Self, Vec<Diagnostic>)> {
+        let mut studio = studio(session, options)?;
+        let notes = std::mem::take(&mut studio.notes);
+        let style = &mut studio.style;
+        (style.shadow, style.occlusion) = (0.0, false);
+        let program = Program::compile(&session.graph, studio.node, &studio.inputs, Demand::Sign, &session.limits);
+        let program = program.map_err(|error| vec![too_large(&studio.name, &error.to_string())])?;
+        let shape = Shape { precision: studio.precision, ..Shape::new(program, 3, studio.fixed.clone()) };
+        let thing = Thing::opaque(shape, studio.paint.clone());
+        let easel = {
+            let _phase = session.interrupt.phase("picture");
+            Easel::draw(&thing, studio.space, &studio.camera, &studio.style, &session.interrupt)
+        };
+        let (easel, _) = easel.map_err(|_| vec![cancelled()])?;
+        let unit = short(UNIT * (0..3).map(|k| studio.space.hi[k] - studio.space.lo[k]).fold(0.0, f64::max));
+        let definition = session.state.get(&studio.name).cloned().ok_or_else(|| vec![errors::no_name(&studio.name)])?;
+        let mut carving = Self {
+            base: (definition.id, studio.node),
+            studio,
+            easel,
+            strokes: Vec::new(),
+            numbers: FxHashMap::default(),
+            boxes: FxHashMap::default(),
+            widest: 0.0,
+            local: Local::default(),
+            tool: Tool::first(unit),
+            torn: false,
+            graphs: session.graphs,
+        };
+        let (base, forms) = carving.behind(session, &definition, |_| false);
+        carving.base = (base.id, carving.node_of(session, base.id).ok_or_else(|| vec![carving.gone()])?);
+        carving.add(session, forms)?;
+        Ok((carving, notes))
+    }
+
+    /// The name of the workpiece.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.studio.name
+    }
+
+    /// The picture.
+    #[must_use]
+    pub fn image(&self) -> &Image {
+        self.easel.image()
+    }
+
+    /// The kept picture.
+    #[must_use]
+    pub fn easel(&self) -> &Easel {
+        &self.easel
+    }
+
+    /// The tool in hand.
+    #[must_use]
+    pub fn tool(&self) -> &Tool {
+        &self.tool
+    }
+
+    /// How many strokes the workpiece has.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.strokes.len()
+    }
+
+    /// How many rays meet the workpiece: 0 if nothing of it is seen.
+    #[must_use]
+    pub fn hits(&self) -> u64 {
+        self.easel.hits()
+    }
+
+    /// The columns and rows of the picture that show something of the workpiece; `None` if none does.
+    #[must_use]
+    pub fn seen(&self) -> Option<[[usize; 2]; 2]> {
+        self.easel.seen()
+    }
+
+    /// The usual size of a tool.
+    fn unit(&self) -> f64 {
+        let space = self.studio.space;
+        short(UNIT * (0..3).map(|k| space.hi[k] - space.lo[k]).fold(0.0, f64::max))
+    }
+
+    /// Digits behind the point that places of strokes are written with: far below a pixel.
+    fn digits(&self) -> usize {
+        let space = self.studio.space;
+        let longest = (0..3).map(|k| space.hi[k] - space.lo[k]).fold(0.0, f64::max);
+        (5.0 - longest.log10().floor()).clamp(0.0, 17.0) as usize
+    }
+
+    /// Takes another tool into the hand: one of the set, or one of the user's own.
+    ///
+    /// # Errors
+    /// Messages for the user: an unknown name, sizes that make no sense, what is no solid about the origin.
+    pub fn take(&mut self, session: &mut Session, words: &str) -> Asked<()> {
+        let one = |told: Diagnostic| vec![told];
+        let known = |name: &str| session.is_defined(name) || session.library().is_some_and(|library| library.has(name));
+        let names = session.objects();
+        let mut tool = Tool::parse(words, self.unit(), &known, &names).map_err(one)?;
+        let found = self.box_of(session, &tool.text.clone().into(), 0.0)?;
+        tool.lowest = tool.lowest.or(Some(-found.lo[2]));
+        if tool.lowest.is_none_or(|lowest| lowest <= 0.0) {
+            return Err(one(errors::no_tool(&tool.text, "nothing of it is below the origin, where it should work")));
+        }
+        self.tool = tool;
+        Ok(())
+    }
+
+    /// What is at a place: the point of the surface that a pixel shows, or a point that is given, with the normal there.
+    ///
+    /// # Errors
+    /// Messages for the user: a pixel that there is not, a ray that misses, a point where the function has no slope.
+    pub fn pick(&mut self, session: &mut Session, place: Place) -> Asked<Spot> {
+        self.follow(session)?;
+        self.spot(session, place).map_err(|told| vec![told])
+    }
+
+    fn spot(&mut self, session: &Session, place: Place) -> Result<Spot, Diagnostic> {
+        match place {
+            Place::Pixel(at) | Place::Line(at, _) => self.through(session, at),
+            Place::Point(point) => self.at(session, point),
+        }
+    }
+
+    fn through(&mut self, session: &Session, at: [f64; 2]) -> Result<Spot, Diagnostic> {
+        let size = self.easel.style().size;
+        let inside = |k: usize| at[k] >= 0.0 && at[k] < size[k] as f64;
+        if !(inside(0) && inside(1)) {
+            return Err(errors::outside(at, size));
+        }
+        let pixel = at.map(|v| v as usize);
+        let window = [pixel, pixel.map(|v| v + 1)];
+        let thing = self.thing(session, window)?;
+        let hit = self.easel.pick(&thing, pixel, &session.interrupt)?;
+        let Some((point, normal)) = hit else { return Err(errors::missed(self.name(), pixel, self.seen())) };
+        Ok(Spot { point, normal, along: None })
+    }
+
+    /// A point that is given, with the normal of the level surface through it.
+    fn at(&mut self, session: &Session, point: [f64; 3]) -> Result<Spot, Diagnostic> {
+        let near = |s: &Stroke| (0..3).all(|k| s.near.lo[k] <= point[k] && point[k] <= s.near.hi[k]);
+        let shape = self.shape(session, near)?;
+        let mut slopes = [[0.0]; 3];
+        let [x, y, z] = &mut slopes;
+        let at: Vec<&[f64]> = point.iter().map(std::slice::from_ref).collect();
+        Sampler::new(&shape).slopes(&shape.program, &at, &mut [0.0], &mut [x, y, z]);
+        let slope = slopes.map(|[v]| v);
+        let largest = slope.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        if !(largest > 0.0 && largest.is_finite() && slope.iter().all(|v| v.is_finite())) {
+            return Err(errors::no_normal(point));
+        }
+        let scaled = slope.map(|v| v / largest);
+        let length = scaled.iter().map(|v| v * v).sum::<f64>().sqrt();
+        Ok(Spot { point, normal: scaled.map(|v| -v / length), along: None })
+    }
+
+    /// Strokes with the tool in hand, one at each place, as one input of the session; then what they touch is drawn anew. Gives where they
+    /// were made. Nothing has changed if one of them cannot be made.
+    ///
+    /// # Errors
+    /// Messages for the user: those of [`Carving::pick`], and strokes that would change nothing.
+    pub fn strokes(&mut self, session: &mut Session, way: Way, places: &[Place]) -> Asked<(Vec<Spot>, Drawn)> {
+        let one = |told: Diagnostic| vec![told];
+        self.follow(session)?;
+        let (mut spots, mut text) = (Vec::new(), Vec::new());
+        for place in places {
+            match place {
+                Place::Line(from, to) => spots.extend(self.line(session, *from, *to)?),
+                Place::Pixel(_) => spots.push(self.spot(session, *place).map_err(one)?),
+                Place::Point(_) => {
+                    let spot = self.spot(session, *place).map_err(one)?;
+                    self.touches(session, way, &spot)?;
+                    spots.push(spot);
+                }
+            }
+        }
+        for spot in &spots {
+            text.push(self.tool.stroke(self.name(), way, spot, self.digits()));
+        }
+        let outcome = session.input("<stroke>", &text.join("\n"), Mode::Prompt);
+        if !outcome.accepted {
+            return Err(outcome.diagnostics);
+        }
+        let drawn = self.follow(session)?;
+        Ok((spots, drawn))
+    }
+
+    /// The spots of a line of strokes, so close that they make one groove; none where the rays miss.
+    fn line(&mut self, session: &mut Session, from: [f64; 2], to: [f64; 2]) -> Asked<Vec<Spot>> {
+        let size = self.easel.style().size;
+        if let Some(end) = [from, to].into_iter().find(|at| (0..2).any(|k| at[k] < 0.0 || at[k] >= size[k] as f64)) {
+            return Err(vec![errors::outside(end, size)]);
+        }
+        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let between = |part: f64| std::array::from_fn(|k| from[k] + part * (to[k] - from[k]));
+        let about = self.box_of(session, &self.tool.text.clone().into(), 0.0)?;
+        let width = (0..2).map(|k| about.hi[k] - about.lo[k]).fold(f64::INFINITY, f64::min);
+        let count = (length / self.spacing(width)).ceil().clamp(1.0, MOST_IN_LINE);
+        let mut spots = Vec::new();
+        for k in 0..=count as usize {
+            session.interrupt.tick().map_err(|_| vec![cancelled()])?;
+            match self.through(session, between(k as f64 / count)) {
+                Ok(spot) => spots.push(spot),
+                Err(told) if told.code == "missed" => {}
+                Err(told) => return Err(vec![told]),
+            }
+        }
+        if spots.is_empty() {
+            return Err(vec![errors::missed(self.name(), from.map(|v| v as usize), self.seen())]);
+        }
+        let points: Vec<[f64; 3]> = spots.iter().map(|spot| spot.point).collect();
+        for (k, spot) in spots.iter_mut().enumerate() {
+            let (before, after) = (points[k.saturating_sub(1)], points[(k + 1).min(points.len() - 1)]);
+            spot.along = Some(std::array::from_fn(|k| after[k] - before[k]));
+        }
+        Ok(spots)
+    }
+
+    /// Pixels from stroke to stroke in a line with a tool of that width.
+    fn spacing(&self, width: f64) -> f64 {
+        let space = self.studio.space;
+        let middle: [f64; 3] = std::array::from_fn(|k| 0.5 * (space.lo[k] + space.hi[k]));
+        let camera = self.easel.camera();
+        let aside = std::array::from_fn(|k| middle[k] + width * camera.right[k]);
+        let pixels = match (camera.place(middle), camera.place(aside)) {
+            (Some(a), Some(b)) => 0.5 * (b[0] - a[0]).abs() * self.easel.style().size[0] as f64,
+            _ => 0.0,
+        };
+        (STEP * pixels).max(1.0)
+    }
+
+    /// Refuses a stroke that would change nothing.
+    fn touches(&mut self, session: &mut Session, way: Way, spot: &Spot) -> Asked<()> {
+        let placed = self.tool.placed(way, spot, self.digits());
+        let tool = self.evaluated(session, &placed)?;
+        let found = self.tool_space(session, way, spot)?;
+        let space = self.studio.space;
+        let within = |s: &Stroke| (0..3).all(|k| s.near.lo[k] <= found.hi[k] && found.lo[k] <= s.near.hi[k]);
+        let chain: Vec<_> = self.strokes.iter().filter(|s| within(s)).map(|s| s.nodes).collect();
+        let limit = session.limits.program_operations;
+        let too_large = || vec![too_large(&self.studio.name, "too many operations")];
+        let object = self.local.chain(&session.graph, self.base.1, &chain, limit).ok_or_else(too_large)?;
+        let tool = self.local.take(&session.graph, tool, limit).ok_or_else(too_large)?;
+        let graph = self.local.graph();
+        let object = if way == Way::Cut { object } else { graph.unary(Unary::Neg, object) };
+        let both = graph.binary(Binary::Min, object, tool);
+        let program = Program::compile(graph, both, &self.studio.inputs, Demand::Sign, &session.limits);
+        let program = Arc::new(program.map_err(|_| too_large())?);
+        let axis = |k: usize| (found.lo[k].max(space.lo[k]), found.hi[k].min(space.hi[k]));
+        let ranges: Vec<(f64, f64)> =
+            [0, 1, 2].map(axis).into_iter().chain(self.studio.fixed.iter().map(|&v| (v, v))).collect();
+        let is_there = ranges.iter().all(|(lo, hi)| lo <= hi)
+            && reach(program, &ranges, 0.5, session.limits.search_operations / 100, &session.interrupt)
+                .map_err(|_| vec![cancelled()])?
+                .is_some();
+        if is_there { Ok(()) } else { Err(vec![errors::nothing_there(self.name(), spot.point, way == Way::Cut)]) }
+    }
+
+    /// The box of the tool in hand where it would stand.
+    fn tool_space(&mut self, session: &mut Session, way: Way, spot: &Spot) -> Asked<Space> {
+        let about = self.box_of(session, &self.tool.text.clone().into(), 0.0)?;
+        let reach = (0..3).map(|k| about.lo[k].abs().max(about.hi[k].abs()).powi(2)).sum::<f64>().sqrt();
+        let _ = way;
+        let off = self.tool.lowest.unwrap_or(0.0) + reach;
+        Ok(Space { lo: spot.point.map(|v| v - off - reach), hi: spot.point.map(|v| v + off + reach) })
+    }
+
+    /// Brings the picture to what the session has now made of the workpiece: after strokes, undo, redo, or any other input.
+    ///
+    /// # Errors
+    /// Messages for the user: the workpiece is gone or has no value, the work was stopped.
+    pub fn follow(&mut self, session: &mut Session) -> Asked<Drawn> {
+        let name = self.studio.name.clone();
+        session.refresh(&name);
+        let Some(definition) = session.state.get(&name).cloned() else { return Err(vec![self.gone()]) };
+        if let Some(Err(told)) = session.value(&name) {
+            return Err(vec![Arc::unwrap_or_clone(told)]);
+        }
+        let known = |id: DefinitionId| id == self.base.0 || self.numbers.contains_key(&id);
+        let (base, forms) = self.behind(session, &definition, known);
+        let kept = match self.numbers.get(&base.id) {
+            Some(&k) => Some(k + 1),
+            None => (base.id == self.base.0).then_some(0),
+        };
+        let same = |k: usize| match k.checked_sub(1) {
+            Some(last) => self.node_of(session, self.strokes[last].id) == Some(self.strokes[last].nodes.1),
+            None => true,
+        };
+        let base_is_same = self.node_of(session, self.base.0) == Some(self.base.1);
+        let is_known = !self.torn && self.graphs == session.graphs && base_is_same;
+        match kept {
+            Some(k) if is_known && same(k) => self.follow_from(session, k, forms),
+            _ => self.anew(session, &definition),
+        }
+    }
+
+    /// The first `kept` strokes are as they were; others follow them.
+    fn follow_from(&mut self, session: &mut Session, kept: usize, forms: Vec<(DefinitionId, Form)>) -> Asked<Drawn> {
+        if kept == self.strokes.len() && forms.is_empty() {
+            return Ok(Drawn::Same);
+        }
+        let gone: Vec<Option<[[f64; 2]; 2]>> = self.strokes[kept..].iter().map(|s| s.seen).collect();
+        for stroke in self.strokes.drain(kept..) {
+            self.numbers.remove(&stroke.id);
+        }
+        self.torn = true;
+        self.add(session, forms)?;
+        let touched: Vec<_> = gone.into_iter().chain(self.strokes[kept..].iter().map(|s| s.seen)).collect();
+        let windows = self.easel.windows(&touched);
+        let pixels = windows.iter().map(|[from, to]| (to[0] - from[0]) * (to[1] - from[1])).sum();
+        self.redraw(session, &windows)?;
+        Ok(if windows.is_empty() { Drawn::Same } else { Drawn::Part(pixels) })
+    }
+
+    /// Reads everything again, since the workpiece itself is another one.
+    fn anew(&mut self, session: &mut Session, definition: &Arc<Definition>) -> Asked<Drawn> {
+        self.strokes.clear();
+        self.numbers.clear();
+        self.boxes.clear();
+        self.local.clear();
+        self.torn = true;
+        self.graphs = session.graphs;
+        let (base, forms) = self.behind(session, definition, |_| false);
+        self.base = (base.id, self.node_of(session, base.id).ok_or_else(|| vec![self.gone()])?);
+        if session.graph.coordinates(self.base.1).iter().any(|c| !self.studio.inputs.contains(&c)) {
+            let told = errors::not_one(self.name(), "it has become an object of further coordinates");
+            return Err(vec![told]);
+        }
+        self.add(session, forms)?;
+        let windows = self.easel.windows(&[None]);
+        self.redraw(session, &windows)?;
+        Ok(Drawn::Whole)
+    }
+
+    fn redraw(&mut self, session: &Session, windows: &[Window]) -> Asked<()> {
+        let mut parts = Vec::with_capacity(windows.len());
+        {
+            let _phase = session.interrupt.phase("compile");
+            for &window in windows {
+                parts.push((window, self.thing(session, window).map_err(|told| vec![told])?));
+            }
+        }
+        let _phase = session.interrupt.phase("picture");
+        self.easel.redraw(&parts, &session.interrupt).map_err(|_| vec![cancelled()])?;
+        self.torn = false;
+        Ok(())
+    }
+
+    /// The strokes that end in a definition, oldest first, back to one that is known or to the definition before all of them.
+    fn behind(
+        &self,
+        session: &Session,
+        last: &Arc<Definition>,
+        known: impl Fn(DefinitionId) -> bool,
+    ) -> (Arc<Definition>, Vec<(DefinitionId, Form)>) {
+        let (mut at, mut forms) = (last.clone(), Vec::new());
+        while !known(at.id)
+            && let Some((form, before)) = read(session, &self.studio.name, &at)
+        {
+            forms.push((at.id, form));
+            at = before;
+        }
+        forms.reverse();
+        (at, forms)
+    }
+
+    /// Adds strokes to those that are known.
+    fn add(&mut self, session: &mut Session, forms: Vec<(DefinitionId, Form)>) -> Asked<()> {
+        let widest = forms.iter().map(|(_, form)| form.blend).fold(self.widest, f64::max);
+        if widest > self.widest {
+            self.widest = widest;
+            for k in 0..self.strokes.len() {
+                let form = self.strokes[k].form.clone();
+                let near = form.frame.place(self.box_of(session, &form.tool, form.blend + 2.0 * widest)?);
+                self.strokes[k].near = near;
+                self.strokes[k].seen_near = self.easel.place(near);
+            }
+        }
+        let mut before = self.strokes.last().map_or(self.base.1, |last| last.nodes.1);
+        for (id, form) in forms {
+            let after = self.node_of(session, id).ok_or_else(|| vec![self.gone()])?;
+            let reach = form.frame.place(self.box_of(session, &form.tool, form.blend)?);
+            let near = form.frame.place(self.box_of(session, &form.tool, form.blend + 2.0 * widest)?);
+            let (seen, seen_near) = (self.easel.place(reach), self.easel.place(near));
+            self.numbers.insert(id, self.strokes.len());
+            self.strokes.push(Stroke { id, nodes: (before, after), form, reach, seen, near, seen_near });
+            before = after;
+        }
+        Ok(())
+    }
+
+    /// How far the last strokes reach beyond what the picture shows, if they do.
+    #[must_use]
+    pub fn beyond(&self, last: usize) -> Option<Diagnostic> {
+        let space = self.studio.space;
+        let off = |s: &Stroke| {
+            (0..3).map(|k| (space.lo[k] - s.reach.lo[k]).max(s.reach.hi[k] - space.hi[k])).fold(0.0, f64::max)
+        };
+        let most = self.strokes.iter().rev().take(last).map(off).fold(0.0, f64::max);
+        (most > 0.0).then(|| errors::beyond(self.name(), short(most)))
+    }
+
+    fn node_of(&self, session: &Session, id: DefinitionId) -> Option<NodeId> {
+        match session.state.kept(id)? {
+            Kept::One(Value::Scalar(Scalar::Node(node))) => Some(*node),
+            _ => None,
+        }
+    }
+
+    fn gone(&self) -> Diagnostic {
+        errors::gone(&self.studio.name)
+    }
+
+    /// The object with those strokes alone that some part of the picture sees.
+    fn thing(&mut self, session: &Session, [from, to]: Window) -> Result<Thing, Diagnostic> {
+        let meets = |seen: &[[f64; 2]; 2]| {
+            (0..2).all(|k| seen[0][k] - 2.0 <= to[k] as f64 && from[k] as f64 <= seen[1][k] + 2.0)
+        };
+        let shape = self.shape(session, |s| s.seen_near.as_ref().is_none_or(meets))?;
+        Ok(Thing::opaque(shape, self.studio.paint.clone()))
+    }
+
+    /// The object with some of the strokes.
+    fn shape(&mut self, session: &Session, with: impl Fn(&Stroke) -> bool) -> Result<Shape, Diagnostic> {
+        let chain: Vec<_> = self.strokes.iter().filter(|s| with(s)).map(|s| s.nodes).collect();
+        let limit = session.limits.program_operations;
+        let too_large = |why: String| too_large(&self.studio.name, &why);
+        let node = self.local.chain(&session.graph, self.base.1, &chain, limit);
+        let node = node.ok_or_else(|| too_large(format!("more than {limit} operations")))?;
+        let graph = self.local.graph();
+        let program = Program::compile(graph, node, &self.studio.inputs, Demand::Sign, &session.limits);
+        let program = program.map_err(|error| too_large(error.to_string()))?;
+        Ok(Shape { precision: self.studio.precision, ..Shape::new(program, 3, self.studio.fixed.clone()) })
+    }
+
+    /// Where a tool is about the origin, with what is at most `more` beyond its boundary by its own values.
+    fn box_of(&mut self, session: &mut Session, tool: &Arc<str>, more: f64) -> Asked<Space> {
+        let key = (tool.clone(), more.to_bits());
+        if let Some(found) = self.boxes.get(&key) {
+            return Ok(*found);
+        }
+        let no_tool = |why: &str| vec![errors::no_tool(tool, why)];
+        let node = self.evaluated(session, tool)?;
+        let others = session.graph.coordinates(node).iter().any(|c| !self.studio.inputs.contains(&c));
+        if others {
+            return Err(no_tool("it depends on other coordinates than those of the workpiece"));
+        }
+        let node = if more > 0.0 {
+            let more = session.graph.constant(more);
+            session.graph.binary(Binary::Add, node, more)
+        } else {
+            node
+        };
+        let inputs: &[Coordinate] = &self.studio.inputs;
+        let program = Program::compile(&session.graph, node, inputs, Demand::Sign, &session.limits);
+        let program = program.map_err(|error| no_tool(&error.to_string()))?;
+        let held = self.studio.fixed.iter().map(|&v| Known::Range(v, v));
+        let known: Vec<Known> = [Known::Sought(None, None); 3].into_iter().chain(held).collect();
+        let found = find(Arc::new(program), &known, session.limits.search_operations / 10, &session.interrupt);
+        let found = match found.map_err(|_| vec![cancelled()])? {
+            Outcome::Within(ranges, _) => ranges,
+            Outcome::Endless(_) => return Err(no_tool("it goes on without end")),
+            Outcome::Point(_) | Outcome::Empty(..) => return Err(no_tool("there is nothing of it")),
+        };
+        let found = Space { lo: [0, 1, 2].map(|k| found[k][0]), hi: [0, 1, 2].map(|k| found[k][1]) };
+        self.boxes.insert(key, found);
+        Ok(found)
+    }
+
+    /// The function that an expression is.
+    fn evaluated(&self, session: &mut Session, text: &str) -> Asked<NodeId> {
+        let node = session.function_of("<tool>", &format!("tr_shift({text}, [0, 0, 0])"))?;
+        node.ok_or_else(|| vec![errors::no_tool(text, "it is no function of the coordinates")])
+    }
+}
+
+/// Rounded to two digits.
+fn short(v: f64) -> f64 {
+    format!("{v:.1e}").parse().unwrap_or(v)
+}
+
+fn too_large(name: &str, why: &str) -> Diagnostic {
+    Diagnostic::error("too-large", format!("`{name}` cannot be drawn: {why}")).category(Category::Program)
+}
