@@ -26,6 +26,7 @@ pub mod plot;
 pub mod raycast;
 pub mod rays;
 mod scale;
+pub mod screen;
 mod search;
 pub mod shade;
 pub mod shadow;

@@ -31,7 +31,9 @@ pub fn carve(repl: &mut Repl, argument: &str) -> Flow {
         argument.split_once(" --").map_or((argument, ""), |(words, _)| (words, &argument[words.len()..]));
     let (name, file) = words.trim().split_once(char::is_whitespace).unwrap_or((words.trim(), ""));
     let file = Some(unquoted(file.trim())).filter(|file| !file.is_empty()).map(PathBuf::from);
-    if let Some(file) = file.as_deref().filter(|file| !file.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"))) {
+    if let Some(file) =
+        file.as_deref().filter(|file| !file.extension().is_some_and(|end| end.eq_ignore_ascii_case("png")))
+    {
         return repl.refuse(&format!(":carve draws into a .png, not into `{}`", file.display()));
     }
     let making = match repl.looking_at(name).with(given) {
@@ -48,14 +50,16 @@ pub fn carve(repl: &mut Repl, argument: &str) -> Flow {
         Err(told) => return failed(repl, &told),
     };
     repl.console.report(repl.session.sources(), &notes);
-    if making.look.shadow.is_some_and(|shadow| shadow.is_on()) || making.look.occlusion.is_some_and(|o| o.is_on()) {
-        repl.console.note("the picture of a workpiece has no shadows, which would reach beyond a stroke; :render has them");
+    if making.look.occlusion.is_some_and(|occlusion| occlusion.is_on()) {
+        repl.console
+            .note("the picture of a workpiece has no occlusion, which would reach beyond a stroke; :render has it");
     }
     let [width, height] = [carving.image().width, carving.image().height];
     let tool = carving.tool().told();
     let count = carving.count();
     let strokes = if count == 0 { String::new() } else { format!(" with {count} strokes") };
-    repl.console.note(&format!("{}{strokes} on a picture of {width} x {height} pixels; the tool is {tool}", carving.name()));
+    repl.console
+        .note(&format!("{}{strokes} on a picture of {width} x {height} pixels; the tool is {tool}", carving.name()));
     repl.work = Some(Work { carving, file, making, lost: false });
     match picture(repl) {
         Flow::Go => Flow::Changed,
@@ -75,7 +79,9 @@ pub fn tool(repl: &mut Repl, words: &str) -> Flow {
             })
             .collect();
         lines.push(format!("{:36} a solid of your own about the origin", "gob_NAME [SIZE], or an expression"));
-        lines.push("then depth=LENGTH into the surface, blend=LENGTH to round the edge, turn=DEGREES about the normal".into());
+        lines.push(
+            "then depth=LENGTH into the surface, blend=LENGTH to round the edge, turn=DEGREES about the normal".into(),
+        );
         lines.extend(repl.work.as_ref().map(|work| format!("in hand: {}", work.carving.tool().told())));
         return repl.show(&lines.join("\n"));
     }

@@ -2,6 +2,7 @@
 
 mod asked;
 mod builtins;
+mod carving;
 mod cli;
 mod conformance;
 mod crash;

@@ -39,8 +39,12 @@ pub fn unknown_setting(key: &str) -> Diagnostic {
 /// More sizes than the tool has.
 pub fn too_many_sizes(kind: &Kind) -> Diagnostic {
     let sizes: Vec<&str> = kind.sizes.iter().map(|size| size.0).collect();
-    usage("bad-size", format!("`{}` has {} sizes at most", kind.name, sizes.len()))
-        .help(format!(":tool {} {}", kind.name, sizes.join(" ")))
+    let many = if sizes.len() == 1 { "one size".to_owned() } else { format!("{} sizes at most", sizes.len()) };
+    usage("bad-size", format!("`{}` has {many}", kind.name)).help(format!(
+        ":tool {} {}",
+        kind.name,
+        sizes.join(" ")
+    ))
 }
 
 /// More than one size of a tool of the user's own.
@@ -97,18 +101,17 @@ pub fn gone(name: &str) -> Diagnostic {
         .help(":undo brings it back; :carve NAME takes another workpiece")
 }
 
-/// Nothing is carved.
-pub fn no_workpiece() -> Diagnostic {
-    usage("no-workpiece", "there is no workpiece yet".into()).help(":carve NAME takes one, and shows it")
-}
-
 /// A workpiece of other than three coordinates.
 pub fn not_solid(name: &str, axes: &[String]) -> Diagnostic {
-    let title = format!("`{name}` cannot be carved: a workpiece has the axes x1, x2, x3, and it has {}", match axes {
-        [] => "none".to_owned(),
-        axes => axes.join(", "),
-    });
-    Diagnostic::error("not-solid", title).help("carve a solid of x1, x2 and x3; other coordinates are held by --at x4=0")
+    let title = format!(
+        "`{name}` cannot be carved: a workpiece has the axes x1, x2, x3, and it has {}",
+        match axes {
+            [] => "none".to_owned(),
+            axes => axes.join(", "),
+        }
+    );
+    Diagnostic::error("not-solid", title)
+        .help("carve a solid of x1, x2 and x3; other coordinates are held by --at x4=0")
 }
 
 /// A workpiece that is several things, or moves.
@@ -130,6 +133,9 @@ pub fn no_name(name: &str) -> Diagnostic {
 
 /// What is left of a note about a stroke that goes beyond what is shown.
 pub fn beyond(name: &str, reach: f64) -> Diagnostic {
-    let title = format!("this reaches {} beyond the space that the picture of `{name}` shows, and is cut off there", number(reach));
+    let title = format!(
+        "this reaches {} beyond the space that the picture of `{name}` shows, and is cut off there",
+        number(reach)
+    );
     Diagnostic::note("beyond-space", title).help(":carve again shows all of it; x1min, x1max and so on set the space")
 }

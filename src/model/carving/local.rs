@@ -116,9 +116,15 @@ impl Local {
                     from.node(node).for_each_operand(|e| holds |= through.get(&e).copied().unwrap_or(false));
                     through.insert(node, holds);
                     let known = &self.known;
-                    let copied = with_operands(from.node(node), |e| here.get(&e).or_else(|| known.get(&e)).copied().unwrap_or(e));
+                    let copied = with_operands(from.node(node), |e| {
+                        here.get(&e).or_else(|| known.get(&e)).copied().unwrap_or(e)
+                    });
                     let new = self.graph.intern(copied);
-                    if holds { here.insert(node, new) } else { self.known.insert(node, new) };
+                    if holds {
+                        here.insert(node, new)
+                    } else {
+                        self.known.insert(node, new)
+                    };
                 }
             }
         }

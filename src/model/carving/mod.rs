@@ -18,9 +18,10 @@ use rustc_hash::FxHashMap;
 use crate::diagnostic::{Category, Diagnostic};
 use crate::field::{Coordinate, NodeId};
 use crate::number::{Algebra, Binary, Unary};
-use crate::picture::Image;
-use crate::picture::easel::{Easel, Window};
+use crate::picture::easel::Easel;
 use crate::picture::raycast::{Space, Thing};
+use crate::picture::screen::{Reach, Window, meets};
+use crate::picture::{Image, Paint};
 use crate::surface::sampler::Sampler;
 use crate::surface::space::{Known, Outcome, find, reach};
 use crate::syntax::Mode;
@@ -100,17 +101,8 @@ impl Carving {
     pub fn begin(session: &mut Session, options: &Options) -> Asked<(Self, Vec<Diagnostic>)> {
         let mut studio = studio(session, options)?;
         let notes = std::mem::take(&mut studio.notes);
-        let style = &mut studio.style;
-        (style.shadow, style.occlusion) = (0.0, false);
-        let program = Program::compile(&session.graph, studio.node, &studio.inputs, Demand::Sign, &session.limits);
-        let program = program.map_err(|error| vec![too_large(&studio.name, &error.to_string())])?;
-        let shape = Shape { precision: studio.precision, ..Shape::new(program, 3, studio.fixed.clone()) };
-        let thing = Thing::opaque(shape, studio.paint.clone());
-        let easel = {
-            let _phase = session.interrupt.phase("picture");
-            Easel::draw(&thing, studio.space, &studio.camera, &studio.style, &session.interrupt)
-        };
-        let (easel, _) = easel.map_err(|_| vec![cancelled()])?;
+        studio.style.occlusion = false;
+        let easel = Easel::new(studio.space, &studio.camera, &studio.style);
         let unit = short(UNIT * (0..3).map(|k| studio.space.hi[k] - studio.space.lo[k]).fold(0.0, f64::max));
         let definition = session.state.get(&studio.name).cloned().ok_or_else(|| vec![errors::no_name(&studio.name)])?;
         let mut carving = Self {
@@ -126,9 +118,7 @@ impl Carving {
             torn: false,
             graphs: session.graphs,
         };
-        let (base, forms) = carving.behind(session, &definition, |_| false);
-        carving.base = (base.id, carving.node_of(session, base.id).ok_or_else(|| vec![carving.gone()])?);
-        carving.add(session, forms)?;
+        carving.anew(session, &definition)?;
         Ok((carving, notes))
     }
 
@@ -148,6 +138,12 @@ impl Carving {
     #[must_use]
     pub fn easel(&self) -> &Easel {
         &self.easel
+    }
+
+    /// The colour of the workpiece.
+    #[must_use]
+    pub fn paint(&self) -> &Paint {
+        &self.studio.paint
     }
 
     /// The tool in hand.
@@ -280,8 +276,14 @@ impl Carving {
         if !outcome.accepted {
             return Err(outcome.diagnostics);
         }
-        let drawn = self.follow(session)?;
-        Ok((spots, drawn))
+        match self.follow(session) {
+            Ok(drawn) => Ok((spots, drawn)),
+            Err(told) => {
+                // A stroke that could not be drawn was not made.
+                session.undo();
+                Err(told)
+            }
+        }
     }
 
     /// The spots of a line of strokes, so close that they make one groove; none where the rays miss.
@@ -398,14 +400,19 @@ impl Carving {
         if kept == self.strokes.len() && forms.is_empty() {
             return Ok(Drawn::Same);
         }
-        let gone: Vec<Option<[[f64; 2]; 2]>> = self.strokes[kept..].iter().map(|s| s.seen).collect();
+        let mut touched: Vec<(Space, Reach)> = self.strokes[kept..].iter().map(|s| (s.reach, s.seen)).collect();
         for stroke in self.strokes.drain(kept..) {
             self.numbers.remove(&stroke.id);
         }
         self.torn = true;
         self.add(session, forms)?;
-        let touched: Vec<_> = gone.into_iter().chain(self.strokes[kept..].iter().map(|s| s.seen)).collect();
-        let windows = self.easel.windows(&touched);
+        touched.extend(self.strokes[kept..].iter().map(|s| (s.reach, s.seen)));
+        let mut seen: Vec<Reach> = touched.iter().map(|of| of.1).collect();
+        if let Some(light) = self.easel.light() {
+            let lit: Vec<Reach> = touched.iter().map(|of| light.reach(of.0)).collect();
+            seen.extend(self.relight(session, &light.windows(&lit))?);
+        }
+        let windows = self.easel.screen().windows(&seen);
         let pixels = windows.iter().map(|[from, to]| (to[0] - from[0]) * (to[1] - from[1])).sum();
         self.redraw(session, &windows)?;
         Ok(if windows.is_empty() { Drawn::Same } else { Drawn::Part(pixels) })
@@ -426,9 +433,26 @@ impl Carving {
             return Err(vec![told]);
         }
         self.add(session, forms)?;
-        let windows = self.easel.windows(&[None]);
+        if let Some(light) = self.easel.light() {
+            self.relight(session, &light.windows(&[None]))?;
+        }
+        let windows = self.easel.screen().windows(&[None]);
         self.redraw(session, &windows)?;
         Ok(Drawn::Whole)
+    }
+
+    /// Looks again from the light; where on the picture there is another light then.
+    fn relight(&mut self, session: &Session, windows: &[Window]) -> Asked<Vec<Reach>> {
+        let mut parts = Vec::with_capacity(windows.len());
+        {
+            let _phase = session.interrupt.phase("compile");
+            for &window in windows {
+                let shape = self.shape(session, |s| meets(&s.lit_near, window)).map_err(|told| vec![told])?;
+                parts.push((window, shape));
+            }
+        }
+        let _phase = session.interrupt.phase("shadows");
+        self.easel.relight(&parts, &session.interrupt).map_err(|_| vec![cancelled()])
     }
 
     fn redraw(&mut self, session: &Session, windows: &[Window]) -> Asked<()> {
@@ -465,14 +489,18 @@ impl Carving {
 
     /// Adds strokes to those that are known.
     fn add(&mut self, session: &mut Session, forms: Vec<(DefinitionId, Form)>) -> Asked<()> {
-        let widest = forms.iter().map(|(_, form)| form.blend).fold(self.widest, f64::max);
-        if widest > self.widest {
+        let (screen, light) = (self.easel.screen(), self.easel.light());
+        // The widest blend of those that there are, whatever there was before: the same strokes always give the same picture.
+        let widest =
+            self.strokes.iter().map(|s| s.form.blend).chain(forms.iter().map(|of| of.1.blend)).fold(0.0, f64::max);
+        if widest.to_bits() != self.widest.to_bits() {
             self.widest = widest;
             for k in 0..self.strokes.len() {
                 let form = self.strokes[k].form.clone();
                 let near = form.frame.place(self.box_of(session, &form.tool, form.blend + 2.0 * widest)?);
-                self.strokes[k].near = near;
-                self.strokes[k].seen_near = self.easel.place(near);
+                let stroke = &mut self.strokes[k];
+                (stroke.near, stroke.seen_near) = (near, screen.reach(near));
+                stroke.lit_near = light.and_then(|light| light.reach(near));
             }
         }
         let mut before = self.strokes.last().map_or(self.base.1, |last| last.nodes.1);
@@ -480,9 +508,10 @@ impl Carving {
             let after = self.node_of(session, id).ok_or_else(|| vec![self.gone()])?;
             let reach = form.frame.place(self.box_of(session, &form.tool, form.blend)?);
             let near = form.frame.place(self.box_of(session, &form.tool, form.blend + 2.0 * widest)?);
-            let (seen, seen_near) = (self.easel.place(reach), self.easel.place(near));
+            let (seen, seen_near) = (screen.reach(reach), screen.reach(near));
+            let lit_near = light.and_then(|light| light.reach(near));
             self.numbers.insert(id, self.strokes.len());
-            self.strokes.push(Stroke { id, nodes: (before, after), form, reach, seen, near, seen_near });
+            self.strokes.push(Stroke { id, nodes: (before, after), form, reach, seen, near, seen_near, lit_near });
             before = after;
         }
         Ok(())
@@ -511,11 +540,8 @@ impl Carving {
     }
 
     /// The object with those strokes alone that some part of the picture sees.
-    fn thing(&mut self, session: &Session, [from, to]: Window) -> Result<Thing, Diagnostic> {
-        let meets = |seen: &[[f64; 2]; 2]| {
-            (0..2).all(|k| seen[0][k] - 2.0 <= to[k] as f64 && from[k] as f64 <= seen[1][k] + 2.0)
-        };
-        let shape = self.shape(session, |s| s.seen_near.as_ref().is_none_or(meets))?;
+    fn thing(&mut self, session: &Session, window: Window) -> Result<Thing, Diagnostic> {
+        let shape = self.shape(session, |s| meets(&s.seen_near, window))?;
         Ok(Thing::opaque(shape, self.studio.paint.clone()))
     }
 

@@ -3,10 +3,11 @@
 
 use std::sync::Arc;
 
+use crate::field::NodeId;
 use crate::model::definition::{Definition, DefinitionId};
 use crate::model::session::Session;
-use crate::field::NodeId;
 use crate::picture::raycast::Space;
+use crate::picture::screen::Reach;
 use crate::syntax::tree::{Body, Expr, ExprKind, PrefixOp, StatementKind};
 
 /// Where a tool stands: its origin and its axes.
@@ -38,12 +39,14 @@ pub struct Stroke {
     pub form: Form,
     /// Outside of this box it changes no sign.
     pub reach: Space,
-    /// Where that is on the picture; `None` for everywhere.
-    pub seen: Option<[[f64; 2]; 2]>,
+    /// Where that is on the picture.
+    pub seen: Reach,
     /// Outside of this box it changes no value that matters to another stroke.
     pub near: Space,
     /// Where that is on the picture.
-    pub seen_near: Option<[[f64; 2]; 2]>,
+    pub seen_near: Reach,
+    /// Where that is in what the light sees.
+    pub lit_near: Reach,
 }
 
 impl Frame {

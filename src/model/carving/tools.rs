@@ -158,7 +158,8 @@ impl Tool {
         let mut words = head.split_whitespace();
         let name = words.next().unwrap_or_default();
         if let Some(kind) = TOOLS.iter().find(|kind| kind.name == name) {
-            let sizes: Vec<f64> = words.map(|word| positive("the size of a tool", word, false)).collect::<Result<_, _>>()?;
+            let sizes: Vec<f64> =
+                words.map(|word| positive("the size of a tool", word, false)).collect::<Result<_, _>>()?;
             if sizes.len() > kind.sizes.len() {
                 return Err(errors::too_many_sizes(kind));
             }
@@ -168,7 +169,8 @@ impl Tool {
         let rest: Vec<&str> = words.collect();
         if is_name && (rest.is_empty() || rest.iter().all(|word| word.parse::<f64>().is_ok())) {
             if !known(name) {
-                let near = errors::near(name, TOOLS.iter().map(|kind| kind.name).chain(names.iter().map(String::as_str)));
+                let near =
+                    errors::near(name, TOOLS.iter().map(|kind| kind.name).chain(names.iter().map(String::as_str)));
                 return Err(errors::unknown_tool(name, near));
             }
             return match rest[..] {
@@ -268,9 +270,9 @@ fn split(words: &str) -> (&str, Vec<&str>) {
     loop {
         let start = head.rfind(char::is_whitespace).map_or(0, |i| i + 1);
         let word = &head[start..];
-        let is_setting = word.split_once('=').is_some_and(|(key, _)| {
-            !key.is_empty() && key.chars().all(|c| c.is_ascii_alphabetic())
-        });
+        let is_setting = word
+            .split_once('=')
+            .is_some_and(|(key, _)| !key.is_empty() && key.chars().all(|c| c.is_ascii_alphabetic()));
         if !is_setting {
             return (head, settings);
         }
@@ -285,5 +287,7 @@ fn finite(what: &str, text: &str) -> Result<f64, Diagnostic> {
 
 fn positive(what: &str, text: &str, or_zero: bool) -> Result<f64, Diagnostic> {
     let value = text.parse().ok().filter(|v: &f64| v.is_finite() && (*v > 0.0 || or_zero && *v == 0.0));
-    value.ok_or_else(|| errors::bad_number(what, text, if or_zero { "a length, 0 for none" } else { "a length above 0" }))
+    value.ok_or_else(|| {
+        errors::bad_number(what, text, if or_zero { "a length, 0 for none" } else { "a length above 0" })
+    })
 }

@@ -86,7 +86,8 @@ pub fn studio(session: &mut Session, options: &Options) -> Result<Studio, Vec<Di
     let size = size(&picture, &subject, &shop).map_err(one)?;
     let place = subject.cells(0.0);
     let solid = Solid::new(&shop, &subject, (&picture, palette, size), &place).map_err(one)?;
-    let (paint, seen, camera, style) = solid.stand().ok_or_else(|| one(errors::not_one(&subject.name, "it is several")))?;
+    let (paint, seen, camera, style) =
+        solid.stand().ok_or_else(|| one(errors::not_one(&subject.name, "it is several")))?;
     let longest = (0..3).map(|k| seen.hi[k] - seen.lo[k]).fold(0.0, f64::max);
     let end = |k: usize, up: bool| {
         let [lo, hi] = subject.axes[k].range;
