@@ -45,7 +45,7 @@ pub fn carve(repl: &mut Repl, argument: &str) -> Flow {
         settings::defaults(&repl.session)
             .and_then(|defaults| Carving::begin(&mut repl.session, &options(&making, defaults)))
     };
-    let (carving, notes) = match begun {
+    let (mut carving, notes) = match begun {
         Ok(begun) => begun,
         Err(told) => return failed(repl, &told),
     };
@@ -53,6 +53,9 @@ pub fn carve(repl: &mut Repl, argument: &str) -> Flow {
     if making.look.occlusion.is_some_and(|occlusion| occlusion.is_on()) {
         repl.console
             .note("the picture of a workpiece has no occlusion, which would reach beyond a stroke; :render has it");
+    }
+    if let Some(work) = &repl.work {
+        carving.hold(work.carving.tool().clone());
     }
     let [width, height] = [carving.image().width, carving.image().height];
     let tool = carving.tool().told();
@@ -117,7 +120,8 @@ fn strokes(repl: &mut Repl, way: Way, argument: &str) -> Flow {
         Ok(made) => made,
         Err(told) => return failed(repl, &told),
     };
-    let notes: Vec<Diagnostic> = work.carving.beyond(spots.len()).into_iter().collect();
+    let beyond = if way == Way::Raise { work.carving.beyond(spots.len()) } else { None };
+    let notes: Vec<Diagnostic> = beyond.into_iter().collect();
     let count = work.carving.count();
     let many = if spots.len() == 1 { "a stroke".to_owned() } else { format!("{} strokes", spots.len()) };
     let told = format!("{many}, {count} in all; {}", words(drawn));

@@ -2,7 +2,7 @@
 
 { The object turned and moved so that its axis of x3 points along n and its origin lies at p; its axis of x1 stays level, and is turned about n by
   the angle a.
-  Example: tr_place(pob_box([0, 0, 0], [2, 1, 0.5]), [0, 0, 3], [0, -1, 0], PI/2) AT (0, 0.25, 4)   // 0
+  Example: tr_place(pob_tool_cone(0.4, 1.6), [0, 0, 0.5], [0, -1, 0], 0) AT (0, 0.8, 0.5)   // 0
   Source: [P95] (11) }
 tr_place((gob/pob) g, (array) p, (array) n, (real) a) =
   g AT (DOT(q, u*COS(a) + w*SIN(a)), DOT(q, w*COS(a) - u*SIN(a)), DOT(q, e))

@@ -152,6 +152,11 @@ impl Carving {
         &self.tool
     }
 
+    /// Takes a tool that was in the hand before, so that a workpiece that is turned is worked on with the same one.
+    pub fn hold(&mut self, tool: Tool) {
+        self.tool = tool;
+    }
+
     /// How many strokes the workpiece has.
     #[must_use]
     pub fn count(&self) -> usize {
