@@ -253,7 +253,9 @@ fn edge(a: u32, b: u32) -> (u32, u32) {
     (a.min(b), a.max(b))
 }
 
-/// The sides to be split: those that are too long or too far from the surface. Where two sides of a triangle are split, so is the third.
+/// The sides to be split: those that are too long or too far from the surface. Where two sides of a triangle are split, so is the third
+/// unless it is short: on a cliff, where the surface runs almost along a ray, halving it with the others again and again would bring vertices
+/// together.
 fn split(vertices: &Vertices<3>, triangles: &[[u32; 3]], length: f64) -> rustc_hash::FxHashSet<(u32, u32)> {
     let wrong = |a: u32, b: u32| {
         let [a, b] = [a as usize, b as usize];
@@ -265,13 +267,17 @@ fn split(vertices: &Vertices<3>, triangles: &[[u32; 3]], length: f64) -> rustc_h
         .collect::<Vec<_>>()
         .into_iter()
         .collect();
+    let is_short = |&(a, b): &(u32, u32)| {
+        let side = minus(vertices.positions[a as usize], vertices.positions[b as usize]);
+        dot(side, side) < (SHORTEST * length).powi(2)
+    };
     loop {
         let thirds: Vec<(u32, u32)> = triangles
             .iter()
             .filter_map(|&[a, b, c]| {
                 let sides = [edge(a, b), edge(b, c), edge(c, a)];
                 let open: Vec<_> = sides.into_iter().filter(|side| !marked.contains(side)).collect();
-                if let [third] = open[..] { Some(third) } else { None }
+                if let [third] = open[..] { Some(third).filter(|third| !is_short(third)) } else { None }
             })
             .collect();
         if thirds.is_empty() {
