@@ -117,9 +117,9 @@ pub enum When {
 /// Whether there is something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Switch {
-    /// There is
+    /// With it
     On,
-    /// There is not
+    /// Without it
     Off,
 }
 
@@ -192,9 +192,9 @@ pub struct Fineness {
     /// The length of a cell, instead of --resolution
     #[arg(long, value_name = "LENGTH", conflicts_with = "resolution")]
     pub cell: Option<f64>,
-    /// The numbers that points are computed with; `single` is for previews
-    #[arg(long, value_name = "NUMBERS", default_value = "double")]
-    pub precision: Numbers,
+    /// The numbers that points are computed with; `single` is for previews (default double)
+    #[arg(long, value_name = "NUMBERS")]
+    pub precision: Option<Numbers>,
     /// Creases and corners as they are in meshes and outlines, not beveled (default off)
     #[arg(long, value_name = "SWITCH", num_args = 0..=1, default_missing_value = "on", require_equals = true)]
     pub sharp: Option<Switch>,
@@ -461,8 +461,15 @@ impl Making {
         if says("--camera") {
             options.making.look.view = None;
         }
+        if says("--no-shadow") {
+            options.making.look.shadow = None;
+        }
         let read = options.try_update_from(words.split_whitespace());
         read.map_err(words_of)?;
+        // A flag that is not said again stays.
+        let look = &mut options.making.look;
+        look.axes |= self.look.axes;
+        look.no_shadow |= self.look.no_shadow && !says("--shadow");
         Ok(options.making)
     }
 }

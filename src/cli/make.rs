@@ -32,7 +32,7 @@ pub fn view(making: &Making, default: &View) -> View {
             .map(|extent| (Coordinate(extent.coordinate), extent.lo, extent.hi))
             .collect(),
         cells,
-        precision: making.fineness.precision.into(),
+        precision: making.fineness.precision.unwrap_or_default().into(),
         route: making.way.route.as_deref().and_then(Route::from_name).unwrap_or(default.route),
         guide: making.way.guide.clone().unwrap_or_else(|| default.guide.clone()),
         centre: making.way.center.as_ref().map(|centre| centre.0.clone()),

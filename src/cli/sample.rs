@@ -41,7 +41,7 @@ pub fn sample(console: &Console, signals: &Signals, options: &Sample) -> Result<
         return Err(console.usage("the program and the points cannot both come from standard input"));
     }
     let (mut session, _) = session::required(console, signals, &options.program)?;
-    let fineness = Fineness { precision: options.precision, ..Fineness::default() };
+    let fineness = Fineness { precision: Some(options.precision), ..Fineness::default() };
     let making = Making { subject: options.subject.clone(), fineness, ..Making::default() };
     let view = view(&making, &View::default());
     let input: Box<dyn BufRead> = if is_standard {

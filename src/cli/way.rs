@@ -25,6 +25,13 @@ pub struct Way {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Centre(pub Vec<f64>);
 
+impl std::fmt::Display for Centre {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let all: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&all.join(","))
+    }
+}
+
 /// Reads `1,2,3` or `1,2`.
 fn centre(text: &str) -> Result<Centre, String> {
     let number = |word: &str| word.trim().parse::<f64>().ok().filter(|v| v.is_finite());

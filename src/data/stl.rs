@@ -80,7 +80,7 @@ impl<'a> Words<'a> {
         MeshError::Line { line: self.line, what }
     }
 
-    fn expect(&mut self, wanted: &str) -> Result<(), MeshError> {
+    fn need(&mut self, wanted: &str) -> Result<(), MeshError> {
         match self.next() {
             Some(word) if word.eq_ignore_ascii_case(wanted) => Ok(()),
             Some(word) => Err(self.wrong(format!("`{}` stands where `{wanted}` should", shortened(word)))),
@@ -130,20 +130,20 @@ fn text(bytes: &[u8]) -> Result<Surface, MeshError> {
 }
 
 fn facet(words: &mut Words<'_>, places: &mut Places) -> Result<[u32; 3], MeshError> {
-    words.expect("normal")?;
+    words.need("normal")?;
     // The normal follows from the corners; many programs write nan or 0 0 0 here.
     for _ in 0..3 {
         words.next();
     }
-    words.expect("outer")?;
-    words.expect("loop")?;
+    words.need("outer")?;
+    words.need("loop")?;
     let mut corners = [0; 3];
     for corner in &mut corners {
-        words.expect("vertex")?;
+        words.need("vertex")?;
         let place = words.place()?;
         *corner = places.number(place).map_err(|_| MeshError::TooMany)?;
     }
-    words.expect("endloop")?;
-    words.expect("endfacet")?;
+    words.need("endloop")?;
+    words.need("endfacet")?;
     Ok(corners)
 }

@@ -1,13 +1,13 @@
 //! How steep a function is where it is near zero: a bound of the length of its gradient over a box, by intervals over ever smaller
 //! boxes. What is far from zero counts only as far as that costs nothing.
 
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::graph::{Graph, NodeId};
 use super::slopes::Slopes;
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
+use crate::number::rank::Ranked;
 
 /// What is known of a function over a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,30 +106,6 @@ pub fn steepness(graph: &Graph, root: NodeId, space: [Interval; 3], interrupt: &
     Ok(Steepness { most: steepest.fold(0.0, f64::max), within })
 }
 
-/// A box that waits, by its urgency; of equals the one that was there first.
-struct Waiting {
-    urgency: [f64; 3],
-    at: usize,
-}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let pairs = self.urgency.iter().zip(&other.urgency);
-        pairs.fold(Ordering::Equal, |known, (a, b)| known.then(a.total_cmp(b))).then(other.at.cmp(&self.at))
-    }
-}
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Waiting {}
-
 /// Halves the most urgent box, again and again, until there are so many or none is urgent.
 fn refine(
     pieces: &mut Vec<Piece>,
@@ -138,11 +114,11 @@ fn refine(
     interrupt: &Interrupt,
     urgency: impl Fn(&Piece) -> Option<[f64; 3]>,
 ) -> Result<(), Cancelled> {
-    let waiting = |at: usize, piece: &Piece| urgency(piece).map(|urgency| Waiting { urgency, at });
-    let mut open: BinaryHeap<Waiting> =
+    let waiting = |at: usize, piece: &Piece| urgency(piece).map(|rank| Ranked { rank, number: at, item: () });
+    let mut open: BinaryHeap<Ranked<3, ()>> =
         pieces.iter().enumerate().filter_map(|(at, piece)| waiting(at, piece)).collect();
     while pieces.len() < until {
-        let Some(Waiting { at, .. }) = open.pop() else { break };
+        let Some(Ranked { number: at, .. }) = open.pop() else { break };
         interrupt.tick()?;
         let halves = pieces[at].halves().map(|half| Piece::of(slopes, half));
         let [first, second] = halves;

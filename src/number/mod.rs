@@ -10,6 +10,7 @@ pub mod leaf;
 pub mod norm;
 pub mod op;
 pub mod polynomial;
+pub mod rank;
 pub mod real;
 pub mod rfunction;
 pub mod star;

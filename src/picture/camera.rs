@@ -164,10 +164,15 @@ impl Camera {
     /// The first point and the change by depth of the ray through (u, v).
     #[must_use]
     pub fn ray(&self, u: f64, v: f64) -> ([f64; 3], [f64; 3]) {
-        let at = |k: usize, [width, height]: [f64; 2]| u * width * self.right[k] + v * height * self.up[k];
-        let start = std::array::from_fn(|k| self.eye[k] + at(k, self.base));
-        let direction = std::array::from_fn(|k| self.forward[k] + at(k, self.growth));
-        (start, direction)
+        let along: [(f64, f64); 3] = std::array::from_fn(|k| self.ray_along(k, u, v));
+        (along.map(|(start, _)| start), along.map(|(_, direction)| direction))
+    }
+
+    /// The same along one axis.
+    #[inline(always)]
+    pub(super) fn ray_along(&self, axis: usize, u: f64, v: f64) -> (f64, f64) {
+        let at = |[width, height]: [f64; 2]| u * width * self.right[axis] + v * height * self.up[axis];
+        (self.eye[axis] + at(self.base), self.forward[axis] + at(self.growth))
     }
 
     /// Where a point is on the picture, as (u, v) of [`Camera::ray`]; `None` if the eye is not before it.

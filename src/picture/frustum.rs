@@ -119,14 +119,7 @@ impl Ray {
     fn new(start: [f64; 3], direction: [f64; 3], space: Space) -> Self {
         let mut ray = Self { start, direction, enter: 0.0, leave: f64::INFINITY, face: 2 };
         for k in 0..3 {
-            if direction[k] == 0.0 {
-                if start[k] < space.lo[k] || start[k] > space.hi[k] {
-                    ray.leave = f64::NEG_INFINITY;
-                }
-                continue;
-            }
-            let (a, b) = ((space.lo[k] - start[k]) / direction[k], (space.hi[k] - start[k]) / direction[k]);
-            let (first, last) = if a <= b { (a, b) } else { (b, a) };
+            let (first, last) = slab(start[k], direction[k], space.lo[k], space.hi[k]);
             if first > ray.enter {
                 (ray.enter, ray.face) = (first, k);
             }
@@ -152,13 +145,30 @@ impl Ray {
 
     /// The unit vector along `v` or against it, whichever is turned to the eye; `None` if `v` has no direction.
     pub(super) fn facing(&self, v: [f64; 3]) -> Option<[f64; 3]> {
-        let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-        if !(largest > 0.0 && largest.is_finite() && v.iter().all(|c| c.is_finite())) {
-            return None;
-        }
-        let scaled = v.map(|c| c / largest);
-        let along: f64 = (0..3).map(|k| scaled[k] * self.direction[k]).sum();
-        let length = scaled.iter().map(|c| c * c).sum::<f64>().sqrt();
-        Some(scaled.map(|c| if along > 0.0 { -c / length } else { c / length }))
+        Some(facing(v, self.direction)).filter(|unit| !unit[0].is_nan())
     }
+}
+
+/// The depths between which a ray lies in the range of one axis.
+#[inline(always)]
+pub(super) fn slab(start: f64, direction: f64, lo: f64, hi: f64) -> (f64, f64) {
+    let (a, b) = ((lo - start) / direction, (hi - start) / direction);
+    let (first, last) = if a <= b { (a, b) } else { (b, a) };
+    let is_out = (start < lo) | (start > hi);
+    let always = if is_out { f64::NEG_INFINITY } else { f64::INFINITY };
+    if direction == 0.0 { (f64::NEG_INFINITY, always) } else { (first, last) }
+}
+
+/// The unit vector along `v` or against it, whichever is turned against the direction; undefined (NaN) if `v` has no direction.
+#[inline(always)]
+pub(super) fn facing(v: [f64; 3], direction: [f64; 3]) -> [f64; 3] {
+    let size = v.map(f64::abs);
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let largest = larger(larger(size[0], size[1]), size[2]);
+    let is_finite = (size[0] < f64::INFINITY) & (size[1] < f64::INFINITY) & (size[2] < f64::INFINITY);
+    let scaled = v.map(|c| c / largest);
+    let along = scaled[0] * direction[0] + scaled[1] * direction[1] + scaled[2] * direction[2];
+    let length = (scaled[0] * scaled[0] + scaled[1] * scaled[1] + scaled[2] * scaled[2]).sqrt();
+    let length = if along > 0.0 { -length } else { length };
+    scaled.map(|c| if is_finite & (largest > 0.0) { c / length } else { f64::NAN })
 }

@@ -5,6 +5,7 @@
 //! sample spacing along a ray is found where the function has a maximum between samples, as at silhouettes.
 
 mod algebraic;
+mod lanes;
 mod search;
 
 use std::hash::{Hash, Hasher};
@@ -41,9 +42,16 @@ pub struct Scene {
 impl Scene {
     /// The start and the change by depth of the ray through a place, in cells from the top left.
     #[must_use]
-    pub fn through(&self, [x, y]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
+    pub fn through(&self, place: [f64; 2]) -> ([f64; 3], [f64; 3]) {
+        let [u, v] = self.view(place);
+        self.camera.ray(u, v)
+    }
+
+    /// The place in the camera's view, from -1 to 1.
+    #[inline(always)]
+    fn view(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [columns, rows] = self.rays;
-        self.camera.ray(2.0 * (x / columns as f64) - 1.0, 1.0 - 2.0 * (y / rows as f64))
+        [2.0 * (x / columns as f64) - 1.0, 1.0 - 2.0 * (y / rows as f64)]
     }
 
     /// What casting rays into it advances the progress by.

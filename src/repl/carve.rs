@@ -1,13 +1,11 @@
 //! The commands for carving: `:carve`, `:tool`, `:cut`, `:raise`, `:pick`. They read places and options; the model does the work.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::cli::arguments::Making;
 use crate::cli::make::options;
 use crate::cli::show;
 use crate::diagnostic::Diagnostic;
-use crate::export;
-use crate::host::{Disk, Host};
 use crate::model::carving::{Carving, Drawn, Place, TOOLS, Way, places};
 use crate::model::settings;
 
@@ -183,15 +181,13 @@ fn picture(repl: &mut Repl) -> Flow {
     if work.carving.hits() == 0 {
         repl.console.note(&format!("nothing of {} is left in the picture; :undo brings it back", work.carving.name()));
     }
-    let image = work.carving.image();
     if let Some(file) = &work.file {
-        let _phase = repl.session.interrupt().phase("write");
-        return match Disk.write_whole(Path::new(file), &mut |out| export::png::write(image, &mut { out })) {
+        return match work.carving.write(&repl.session, file) {
             Ok(()) => Flow::Go,
-            Err(error) => Flow::Failed(repl.console.file_error(&error)),
+            Err(told) => failed(repl, &[told]),
         };
     }
-    let shown = show::image(&repl.console, &work.making, image);
+    let shown = show::image(&repl.console, &work.making, work.carving.image());
     repl.ended(shown)
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::cli::arguments::Making;
+use crate::cli::arguments::{Making, option_names};
 use crate::cli::{make, session, status::Status, text};
 use crate::host::{Disk, Host};
 use crate::model::request::{FORMATS, Kind, Output};
@@ -96,7 +96,7 @@ pub static TABLE: &[Command] = &[
     command(
         "set",
         "[OPTION VALUE]",
-        "keep an option for what follows, as in :set resolution 64; alone, show them",
+        "keep an option for what follows, as in :set resolution 64 or :set resolution default; alone, show them",
         Argument::Option,
         set,
     ),
@@ -382,10 +382,16 @@ fn measure(repl: &mut Repl, name: &str) -> Flow {
 
 fn set(repl: &mut Repl, argument: &str) -> Flow {
     if argument.is_empty() {
-        return repl.show(&settings(&repl.making));
+        return repl.show(&told(&repl.making));
     }
-    let option = argument.trim_start_matches('-').replacen('=', " ", usize::from(!argument.contains(' ')));
-    match repl.making.with(&format!("--{option}")) {
+    let option = argument.trim_start_matches('-');
+    let (name, value) = option.split_once(['=', ' ']).map_or((option, ""), |(name, value)| (name, value.trim()));
+    let set = match value {
+        "" => repl.making.with(&format!("--{name}")),
+        "default" if option_names().iter().any(|known| known == name) => without(&repl.making, name),
+        _ => repl.making.with(&format!("--{name}={value}")),
+    };
+    match set {
         Ok(making) => {
             repl.making = making;
             Flow::Changed
@@ -394,15 +400,33 @@ fn set(repl: &mut Repl, argument: &str) -> Flow {
     }
 }
 
-fn settings(making: &Making) -> String {
-    let mut lines = Vec::new();
-    let mut say = |name: &str, value: Option<String>| {
-        lines.extend(value.map(|value| format!("{name} {value}").trim_end().to_owned()))
-    };
+/// The options with one of them as if it had never been set.
+fn without(making: &Making, name: &str) -> Result<Making, String> {
+    let others = settings(making).into_iter().filter(|(other, _)| *other != name);
+    let words =
+        others.map(|(other, value)| if value.is_empty() { format!("--{other}") } else { format!("--{other}={value}") });
+    Making::default().with(&words.collect::<Vec<_>>().join(" "))
+}
+
+fn told(making: &Making) -> String {
+    let lines: Vec<String> =
+        settings(making).into_iter().map(|(name, value)| format!("{name} {value}").trim_end().to_owned()).collect();
+    if lines.is_empty() { "every option has its default".into() } else { lines.join("\n") }
+}
+
+/// The options that are set and their values, which read back to the same options.
+fn settings(making: &Making) -> Vec<(&'static str, String)> {
+    let mut all = Vec::new();
+    let mut say = |name, value: Option<String>| all.extend(value.map(|value| (name, value)));
     say("object", (!making.subject.object.is_empty()).then(|| making.subject.object.join(",")));
     say("resolution", making.fineness.resolution.map(|n| n.to_string()));
     say("cell", making.fineness.cell.map(|length| length.to_string()));
-    say("sharp", making.fineness.sharp.map(|sharp| if sharp.is_on() { "on" } else { "off" }.to_owned()));
+    let switch = |switch: cli::arguments::Switch| if switch.is_on() { "on" } else { "off" }.to_owned();
+    say("precision", making.fineness.precision.map(|numbers| format!("{numbers:?}").to_lowercase()));
+    say("sharp", making.fineness.sharp.map(switch));
+    say("route", making.way.route.clone());
+    say("guide", making.way.guide.as_ref().map(ToString::to_string));
+    say("center", making.way.center.as_ref().map(ToString::to_string));
     say("size", making.look.size.map(|size| format!("{}x{}", size.width, size.height)));
     say("view", making.look.view.clone());
     say("camera", making.look.camera.as_ref().map(ToString::to_string));
@@ -410,10 +434,10 @@ fn settings(making: &Making) -> String {
     say("supersample", making.look.supersample.map(|n| n.to_string()));
     say("axes", making.look.axes.then(String::new));
     say("projection", making.look.projection.map(|rays| format!("{rays:?}").to_lowercase()));
-    let switch = |switch: cli::arguments::Switch| if switch.is_on() { "on" } else { "off" }.to_owned();
     say("light", making.look.light.map(|[around, above]| format!("{around},{above}")));
     say("fill", making.look.fill.map(switch));
-    say("shadow", if making.look.no_shadow { Some("off".into()) } else { making.look.shadow.map(switch) });
+    say("no-shadow", making.look.no_shadow.then(String::new));
+    say("shadow", making.look.shadow.map(switch));
     say("occlusion", making.look.occlusion.map(switch));
     say("background", making.look.background.map(|ground| ground.to_string()));
     say(
@@ -432,7 +456,7 @@ fn settings(making: &Making) -> String {
     for extent in &making.subject.bounds {
         say("bounds", Some(format!("x{}={}:{}", extent.coordinate, extent.lo, extent.hi)));
     }
-    if lines.is_empty() { "every option has its default".into() } else { lines.join("\n") }
+    all
 }
 
 fn at(repl: &mut Repl, argument: &str) -> Flow {
@@ -469,13 +493,71 @@ mod tests {
         assert_eq!([name(""), name("nonsense")], [None, None]);
     }
 
+    /// Each option with a value of its own, in an order in which none takes another back.
+    const SET: [(&str, &str); 30] = [
+        ("object", "gob_a,gob_b"),
+        ("at", "x4=0.5"),
+        ("bounds", "x1=-1:2.5"),
+        ("cell", "0.25"),
+        ("resolution", "16"),
+        ("precision", "single"),
+        ("sharp", "on"),
+        ("route", "cubes"),
+        ("guide", "cube:3"),
+        ("center", "-1,0,0.5"),
+        ("size", "32x16"),
+        ("view", "top"),
+        ("camera", "-35,24"),
+        ("projection", "perspective"),
+        ("light", "-10,40"),
+        ("fill", "off"),
+        ("no-shadow", ""),
+        ("shadow", "off"),
+        ("occlusion", "on"),
+        ("background", "white"),
+        ("cut", "x1<0.5"),
+        ("palette", "viridis"),
+        ("supersample", "2"),
+        ("axes", ""),
+        ("slices", "x3=-1:1:5"),
+        ("images", "half"),
+        ("frames", "7"),
+        ("fps", "12.5"),
+        ("palette", "mono"),
+        ("cell", "0.5"),
+    ];
+
+    #[test]
+    fn every_option_that_is_set_is_listed_and_reads_back() {
+        for name in option_names() {
+            let (_, value) =
+                SET.iter().find(|(known, _)| *known == name).unwrap_or_else(|| panic!("no value of {name}"));
+            let plain = Making::default();
+            let set = plain.with(format!("--{name}={value}").trim_end_matches('=')).expect(&name);
+            let listed = settings(&set);
+            assert_eq!(listed.len(), 1, "{name}: {listed:?}");
+            let (told, value) = &listed[0];
+            assert_eq!(
+                plain.with(format!("--{told}={value}").trim_end_matches('=')).map(|read| settings(&read)),
+                Ok(listed.clone())
+            );
+            assert_eq!(without(&set, told), Ok(plain), "{name}");
+        }
+        let together = SET.iter().try_fold(Making::default(), |making, (name, value)| {
+            making.with(format!("--{name}={value}").trim_end_matches('='))
+        });
+        let listed = settings(&together.expect("options"));
+        // The view gave way to the camera, the resolution to the cell, the one word about shadows to the other.
+        assert_eq!(listed.len(), option_names().len() - 3, "{listed:?}");
+    }
+
     #[test]
     fn options_are_laid_over_each_other() {
         let making = Making::default().with("--resolution 64 --view top").expect("options");
         assert_eq!(making.fineness.resolution, Some(64));
         let making = making.with("--cell 0.5").expect("options");
         assert_eq!((making.fineness.cell, making.fineness.resolution), (Some(0.5), None));
-        assert_eq!(settings(&making), "cell 0.5\nview top");
+        assert_eq!(told(&making), "cell 0.5\nview top");
         let words = making.with("--resolution much").expect_err("no number");
         assert!(words.contains("`much` is not a whole number"), "{words}");
     }

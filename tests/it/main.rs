@@ -1,5 +1,6 @@
 //! The one integration binary: each module is a subject.
 
+mod agreement;
 mod asked;
 mod builtins;
 mod carving;

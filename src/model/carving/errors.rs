@@ -40,11 +40,7 @@ pub fn unknown_setting(key: &str) -> Diagnostic {
 pub fn too_many_sizes(kind: &Kind) -> Diagnostic {
     let sizes: Vec<&str> = kind.sizes.iter().map(|size| size.0).collect();
     let many = if sizes.len() == 1 { "one size".to_owned() } else { format!("{} sizes at most", sizes.len()) };
-    usage("bad-size", format!("`{}` has {many}", kind.name)).help(format!(
-        ":tool {} {}",
-        kind.name,
-        sizes.join(" ")
-    ))
+    usage("bad-size", format!("`{}` has {many}", kind.name)).help(format!(":tool {} {}", kind.name, sizes.join(" ")))
 }
 
 /// More than one size of a tool of the user's own.

@@ -96,6 +96,19 @@ impl Choice {
                                      NAME:64 of an array of three functions of x1 and x2";
 }
 
+impl std::fmt::Display for Choice {
+    /// What [`Choice::read`] reads.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Following => f.write_str("following"),
+            Self::Solid(solid, level) => write!(f, "{}:{level}", solid.name()),
+            Self::Polygon(corners) => write!(f, "polygon:{corners}"),
+            Self::File(path) => write!(f, "{}", path.display()),
+            Self::Named(name, steps) => write!(f, "{name}:{steps}"),
+        }
+    }
+}
+
 /// A guide that is ready: directions and how they hang together.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ready {

@@ -1,6 +1,5 @@
 //! Branch and bound: whether some point of a space meets all conditions. Knows nothing of objects but their conditions.
 
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
@@ -8,6 +7,7 @@ use super::climb::climb;
 use super::linear::{Linear, contract, excludes, fails};
 use super::{Conditions, Near, Verdict};
 use crate::interrupt::{Cancelled, Interrupt};
+use crate::number::rank::Ranked;
 use crate::number::{Interval, Unary};
 use crate::surface::space::{FAR, middle, squeezed};
 use crate::vm::{Boxes, Gradients, Points, Program};
@@ -25,7 +25,6 @@ const NEAR: f64 = 1e3;
 struct Part {
     /// How near its middle comes to that, in changes of the conditions within the box.
     score: f64,
-    number: usize,
     sides: Vec<[f64; 2]>,
     /// The conditions that are not met all over it.
     open: Vec<Open>,
@@ -42,29 +41,6 @@ struct Open {
     is_smooth: bool,
 }
 
-impl Part {
-    fn order(&self) -> (f64, std::cmp::Reverse<usize>) {
-        (self.score, std::cmp::Reverse(self.number))
-    }
-}
-impl PartialEq for Part {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Part {}
-impl PartialOrd for Part {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Part {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let (a, b) = (self.order(), other.order());
-        a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
-    }
-}
-
 struct Search<'a> {
     conditions: &'a mut Conditions,
     space: &'a [[f64; 2]],
@@ -72,7 +48,7 @@ struct Search<'a> {
     points: Points<f64>,
     gradients: Gradients,
     interrupt: &'a Interrupt,
-    heap: BinaryHeap<Part>,
+    heap: BinaryHeap<Ranked<1, Part>>,
     count: usize,
     /// The point to which a climb came nearest, and how near.
     best: Option<(f64, Vec<f64>)>,
@@ -124,10 +100,10 @@ impl Search<'_> {
             is_smooth: false,
         });
         let open = open.collect();
-        let whole = Part { score: 0.0, number: 0, sides: self.space.to_vec(), open, along: Vec::new() };
+        let whole = Part { score: 0.0, sides: self.space.to_vec(), open, along: Vec::new() };
         self.examine(&whole, vec![self.space.to_vec()])?;
         let (mut popped, mut next_climb, mut left) = (0_usize, 1, None);
-        while let Some(part) = self.heap.pop() {
+        while let Some(Ranked { item: part, .. }) = self.heap.pop() {
             self.interrupt.tick()?;
             popped += 1;
             if popped == next_climb && self.found.is_none() {
@@ -222,7 +198,7 @@ impl Search<'_> {
         self.count += sides.len();
         let mut parts: Vec<Option<Part>> = sides
             .into_iter()
-            .map(|sides| Some(Part { score: 0.0, number: 0, sides, open: Vec::new(), along: Vec::new() }))
+            .map(|sides| Some(Part { score: 0.0, sides, open: Vec::new(), along: Vec::new() }))
             .collect();
         for open in &of.open {
             self.bound(open.number, &open.program, &mut parts);
@@ -246,8 +222,7 @@ impl Search<'_> {
                 self.found.get_or_insert(middle);
                 return Ok(());
             }
-            part.number = self.count + self.heap.len();
-            self.heap.push(part);
+            self.heap.push(Ranked { rank: [part.score], number: self.count + self.heap.len(), item: part });
         }
         Ok(())
     }

@@ -1,13 +1,13 @@
 //! The search for the ends of an object, by intervals as far as they reach: the boxes that may hold some of it, farthest first. Rounds
 //! nothing and evaluates points only to learn what is certainly inside.
 
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
 use super::{BOX, FAR, FINE, Known, OVERHEAD, ROUGH, ROUNDS, SAMPLES};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
+use crate::number::rank::Ranked;
 use crate::vm::interval::Boxes;
 use crate::vm::{Points, Program};
 
@@ -17,38 +17,10 @@ const STEPS: usize = 60;
 
 /// A box that may hold some of the object.
 struct Candidate {
-    /// How far it reaches in the direction of the search.
-    reach: f64,
     /// The function at its middle: of boxes that reach as far, that with the largest is next.
     score: f64,
-    /// Which came first, for the rest.
-    number: u64,
     sides: Vec<[f64; 2]>,
     program: Arc<Program>,
-}
-
-impl Candidate {
-    fn order(&self) -> (f64, f64, std::cmp::Reverse<u64>) {
-        (self.reach, self.score, std::cmp::Reverse(self.number))
-    }
-}
-
-impl PartialEq for Candidate {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Candidate {}
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Candidate {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let (a, b) = (self.order(), other.order());
-        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2))
-    }
 }
 
 /// When an end is known well enough.
@@ -93,7 +65,6 @@ pub(super) struct Search<'a> {
     pub(super) sought: Vec<(usize, [bool; 2])>,
     pub(super) spent: u64,
     pub(super) work: u64,
-    pub(super) count: u64,
     pub(super) boxes: Boxes,
     pub(super) points: Points<f64>,
     pub(super) interrupt: &'a Interrupt,
@@ -117,7 +88,6 @@ impl<'a> Search<'a> {
             sought: sought.collect(),
             spent: 0,
             work,
-            count: 0,
             boxes: Boxes::heeding(interrupt),
             points: Points::heeding(interrupt),
             interrupt,
@@ -251,42 +221,40 @@ impl<'a> Search<'a> {
         let most = self.spent.saturating_add(allowance);
         let whole = self.outer.clone();
         let mut heap = BinaryHeap::new();
-        heap.push(Candidate {
-            reach: reach(&whole),
-            score: 0.0,
-            number: 0,
-            sides: whole,
-            program: Arc::clone(&self.program),
-        });
-        while let Some(top) = heap.pop() {
+        let mut came = 0;
+        let mut waiting = |item: Candidate| {
+            came += 1;
+            Ranked { rank: [reach(&item.sides), item.score], number: came, item }
+        };
+        heap.push(waiting(Candidate { score: 0.0, sides: whole, program: Arc::clone(&self.program) }));
+        while let Some(Ranked { rank: [farthest, _], item: top, .. }) = heap.pop() {
             self.interrupt.tick()?;
             let known = self.inner.as_ref().map_or(f64::NEG_INFINITY, |inner| reach(inner));
             if known >= FAR && self.outer[axis][usize::from(up)].is_infinite() {
                 return Ok(Climb::Endless);
             }
             let is_near = match stop {
-                Stop::Finite => top.reach.is_finite(),
-                Stop::Within(length) => top.reach - known <= length || top.sides.iter().all(|s| width(*s) <= length),
+                Stop::Finite => farthest.is_finite(),
+                Stop::Within(length) => farthest - known <= length || top.sides.iter().all(|s| width(*s) <= length),
                 Stop::Part(part) => {
                     let close = |(side, all): (&[f64; 2], &[f64; 2])| width(*side) <= part * width(*all);
-                    top.reach - known <= part * width(self.outer[axis]) || top.sides.iter().zip(&self.outer).all(close)
+                    farthest - known <= part * width(self.outer[axis]) || top.sides.iter().zip(&self.outer).all(close)
                 }
             };
-            if is_near || top.reach <= known || (self.spent > most && top.reach.is_finite()) {
+            if is_near || farthest <= known || (self.spent > most && farthest.is_finite()) {
                 self.probe(&top.sides);
                 if let Stop::Within(length) = stop {
                     self.press(&top.sides, (axis, up), length)?;
                 }
-                return Ok(Climb::Reach(sign * top.reach.max(known)));
+                return Ok(Climb::Reach(sign * farthest.max(known)));
             }
             if self.spent > most {
                 return Ok(Climb::Open);
             }
             for child in self.split(&top, axis, up) {
                 let known = self.inner.as_ref().map_or(f64::NEG_INFINITY, |inner| reach(inner));
-                let reach = reach(&child.sides);
-                if reach > known {
-                    heap.push(Candidate { reach, ..child });
+                if reach(&child.sides) > known {
+                    heap.push(waiting(child));
                 }
             }
         }
@@ -414,9 +382,8 @@ impl<'a> Search<'a> {
             self.learn(value, &point);
         }
         let [value, _] = values;
-        self.count += 1;
         let score = if value.is_nan() { f64::NEG_INFINITY } else { value };
-        Candidate { reach: 0.0, score, number: self.count, sides, program }
+        Candidate { score, sides, program }
     }
 
     /// Looks at the corners of a box and the points between them: a tip often lies there, which the middle misses.

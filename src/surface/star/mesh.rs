@@ -16,6 +16,8 @@ const BATCH: usize = 2048;
 const SHORTEST: f64 = 0.3;
 /// How far a side may lie from the surface, as a share of that length.
 const FARTHEST: f64 = 0.025;
+/// How far a side that is split reaches across the rays, as a share of that length.
+const ACROSS: f64 = 1e-3;
 /// Rounds of splitting at most.
 const ROUNDS: usize = 40;
 
@@ -226,7 +228,7 @@ pub fn following(
     vertices.extend(gauge, space, &directions, true, interrupt)?;
     for _ in 0..ROUNDS {
         interrupt.tick()?;
-        let middles = split(&vertices, &triangles, length);
+        let middles = split(gauge, &vertices, &triangles, length);
         if middles.is_empty() {
             break;
         }
@@ -253,11 +255,18 @@ fn edge(a: u32, b: u32) -> (u32, u32) {
     (a.min(b), a.max(b))
 }
 
-/// The sides to be split: those that are too long or too far from the surface. Where two sides of a triangle are split, so is the third.
-fn split(vertices: &Vertices<3>, triangles: &[[u32; 3]], length: f64) -> rustc_hash::FxHashSet<(u32, u32)> {
+/// The sides to be split: those that are too long or too far from the surface, and where a side of a triangle is split also its longest one:
+/// else triangles would become ever thinner where the surface bends one way alone, or stands up like a cliff.
+fn split(
+    gauge: &Gauge,
+    vertices: &Vertices<3>,
+    triangles: &[[u32; 3]],
+    length: f64,
+) -> rustc_hash::FxHashSet<(u32, u32)> {
     let wrong = |a: u32, b: u32| {
         let [a, b] = [a as usize, b as usize];
-        too_coarse([vertices.positions[a], vertices.positions[b]], [vertices.normals[a], vertices.normals[b]], length)
+        let ends = [a, b];
+        too_coarse(&gauge.centre, ends.map(|v| vertices.positions[v]), ends.map(|v| vertices.normals[v]), length)
     };
     let mut marked: rustc_hash::FxHashSet<(u32, u32)> = triangles
         .par_iter()
@@ -265,30 +274,46 @@ fn split(vertices: &Vertices<3>, triangles: &[[u32; 3]], length: f64) -> rustc_h
         .collect::<Vec<_>>()
         .into_iter()
         .collect();
+    let square = |(a, b): (u32, u32)| {
+        let side = minus(vertices.positions[a as usize], vertices.positions[b as usize]);
+        dot(side, side)
+    };
     loop {
-        let thirds: Vec<(u32, u32)> = triangles
-            .iter()
+        let open: Vec<(u32, u32)> = triangles
+            .par_iter()
             .filter_map(|&[a, b, c]| {
                 let sides = [edge(a, b), edge(b, c), edge(c, a)];
-                let open: Vec<_> = sides.into_iter().filter(|side| !marked.contains(side)).collect();
-                if let [third] = open[..] { Some(third) } else { None }
+                let longest = |one: (u32, u32), other: (u32, u32)| {
+                    if (square(one), one) < (square(other), other) { other } else { one }
+                };
+                let longest = longest(longest(sides[0], sides[1]), sides[2]);
+                (sides.iter().any(|side| marked.contains(side)) && !marked.contains(&longest)).then_some(longest)
             })
             .collect();
-        if thirds.is_empty() {
+        if open.is_empty() {
             return marked;
         }
-        marked.extend(thirds);
+        marked.extend(open);
     }
 }
 
 /// Whether a side is too long, or its middle too far from a surface with these normals at its ends.
-fn too_coarse<const N: usize>([a, b]: [[f64; N]; 2], [m, n]: [[f64; N]; 2], length: f64) -> bool {
+///
+/// A side along a ray is never split: it climbs a cliff, is straight, and its middle would be seen at its foot or its top alone.
+fn too_coarse<const N: usize>(centre: &[f64], [a, b]: [[f64; N]; 2], [m, n]: [[f64; N]; 2], length: f64) -> bool {
     let side: f64 = (0..N).map(|d| (b[d] - a[d]).powi(2)).sum::<f64>().sqrt();
-    if side > length {
-        return true;
-    }
     if side < SHORTEST * length {
         return false;
+    }
+    let ray: [f64; N] = std::array::from_fn(|d| a[d] - centre[d]);
+    let [far, along] =
+        [&ray, &std::array::from_fn(|d| b[d] - a[d])].map(|v| (0..N).map(|d| ray[d] * v[d]).sum::<f64>());
+    let across: f64 = (0..N).map(|d| (b[d] - a[d] - along / far * ray[d]).powi(2)).sum::<f64>().sqrt();
+    if across < ACROSS * length {
+        return false;
+    }
+    if side > length {
+        return true;
     }
     // A surface that turns by an angle over a side stands an eighth of their product away from its middle; the turn along the side is
     // what the normals change along it.
@@ -370,7 +395,12 @@ pub fn outline_following(
         let coarse: Vec<bool> = (0..line.len())
             .map(|k| {
                 let ends = ends(k);
-                too_coarse(ends.map(|v| vertices.positions[v]), ends.map(|v| vertices.normals[v]), length)
+                too_coarse(
+                    &gauge.centre,
+                    ends.map(|v| vertices.positions[v]),
+                    ends.map(|v| vertices.normals[v]),
+                    length,
+                )
             })
             .collect();
         let split: Vec<usize> = (0..line.len()).filter(|k| coarse[*k]).collect();
