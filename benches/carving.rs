@@ -2,7 +2,7 @@
 //! takes besides. The rounds go through all of them in turn; medians are printed: `cargo bench --bench carving`; a number after `--` is how
 //! many rounds.
 
-#![allow(clippy::print_stdout)]
+#![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -68,7 +68,7 @@ impl Case {
         let mut options = Options::default();
         options.picture.size = Some((640, 480));
         let (mut carving, _) = Carving::begin(&mut session, &options).expect("a workpiece");
-        println!("{strokes} strokes: the first picture took {:.0} ms", begun.elapsed().as_secs_f64() * 1e3);
+        eprintln!("{strokes} strokes: the first picture took {:.0} ms", begun.elapsed().as_secs_f64() * 1e3);
         assert_eq!(carving.count(), strokes);
         carving.take(&mut session, "ball 0.05").expect("a tool");
         Self { strokes, session, carving, times: Default::default(), pixels: 0 }
