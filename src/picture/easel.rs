@@ -10,9 +10,9 @@ use super::brush::{Brush, Ground, Lit, Painted};
 use super::camera::Camera;
 use super::frustum::Frustum;
 use super::image::Image;
-use super::raycast::{Air, Space, Style, TOLERANCE, Thing, side};
+use super::raycast::{Air, Space, Style, Thing, side};
 use super::rays::{Aim, Hit, Met, Pattern, Scene, Seed, Tile, search_in};
-use super::screen::{PIECE, Reach, Screen, Window};
+use super::screen::{PIECE, Reach, Screen, TILE, Window};
 use super::shade::Lights;
 use super::shadow::Shadows;
 use crate::interrupt::{Cancelled, Interrupt};
@@ -37,9 +37,10 @@ pub struct Easel {
 }
 
 /// A piece of the picture that is drawn but not yet put on it.
-struct Piece<'a> {
+struct Piece {
     window: Window,
-    thing: &'a Thing,
+    /// The object there, once it was needed.
+    shape: Option<Shape>,
     /// Which of its tiles are to be looked at anew.
     touched: Vec<bool>,
     /// What was known of it.
@@ -59,11 +60,12 @@ struct Kept {
     shares: FxHashMap<usize, Vec<Option<Hit>>>,
 }
 
+/// How exactly depths are found, as a part of their range: so that it does not show which strokes far inside a search has met, and the same
+/// strokes always give the same picture, whatever was made and taken back between.
+const EXACT: f64 = 1e-12;
+
 /// Pixels of pictures that keep what all rays met; larger ones look at whole pieces.
 const MOST_KEPT: usize = 1 << 22;
-
-/// Pixels along each side of a tile.
-const TILE: usize = PIECE / 4;
 
 impl Easel {
     /// An empty picture: everything is still to be drawn. There is no occlusion, which would reach everywhere.
@@ -72,7 +74,7 @@ impl Easel {
         let [width, height] = style.size;
         let lights = Lights::new(camera, style.light, style.fill);
         let shadows = (style.shadow > 0.0).then(|| Shadows::dark(space, lights.key(), side(style)));
-        let screen = Screen { camera: *camera, size: style.size };
+        let screen = Screen { camera: *camera, size: style.size, piece: PIECE };
         Self {
             space,
             camera: *camera,
@@ -90,14 +92,12 @@ impl Easel {
     /// # Errors
     /// [`Cancelled`] soon after the interrupt was set.
     pub fn draw(&mut self, thing: &Thing, interrupt: &Interrupt) -> Result<Counters, Cancelled> {
+        let shape = |_: Window| Ok(thing.shape.clone());
         if let Some(light) = self.light() {
-            let parts: Vec<_> =
-                light.windows(&[None]).into_iter().map(|window| (window, thing.shape.clone())).collect();
-            self.relight(&parts, interrupt)?;
+            self.relight::<Cancelled>(&light.windows(&[None]), &shape, interrupt)?;
         }
         let windows = self.screen().windows(&[None]);
-        let parts: Vec<_> = windows.into_iter().map(|window| (window, thing.clone())).collect();
-        self.redraw(&parts, &[None], interrupt)
+        self.redraw::<Cancelled>(&windows, (thing, &shape), &[None], interrupt)
     }
 
     /// The picture.
@@ -139,13 +139,13 @@ impl Easel {
     /// What is seen, and in how many pixels.
     #[must_use]
     pub fn scene(&self) -> Scene {
-        Scene { camera: self.camera, space: self.space, rays: self.style.size, tile: PIECE / 4 }
+        Scene { camera: self.camera, space: self.space, rays: self.style.size, tile: TILE }
     }
 
     /// The screen of the picture.
     #[must_use]
     pub fn screen(&self) -> Screen {
-        Screen { camera: self.camera, size: self.style.size }
+        Screen { camera: self.camera, size: self.style.size, piece: PIECE }
     }
 
     /// What the key light sees, if there are shadows.
@@ -154,15 +154,20 @@ impl Easel {
         self.air.common().map(Shadows::screen)
     }
 
-    /// Looks again from the key light, at parts of what it sees, each with the object as it is there now. Gives where on the picture the
-    /// light is another one than before. If the work was stopped, nothing has changed.
+    /// Looks again from the key light, at pieces of what it sees, each with the object as it is there now. Gives where on the picture the
+    /// light may be another one than before. If the work was stopped, nothing has changed.
     ///
     /// # Errors
-    /// [`Cancelled`] soon after the interrupt was set.
-    pub fn relight(&mut self, parts: &[(Window, Shape)], interrupt: &Interrupt) -> Result<Vec<Reach>, Cancelled> {
+    /// [`Cancelled`] soon after the interrupt was set; what `shape` fails with.
+    pub fn relight<E: From<Cancelled> + Send>(
+        &mut self,
+        windows: &[Window],
+        shape: &(dyn Fn(Window) -> Result<Shape, E> + Sync),
+        interrupt: &Interrupt,
+    ) -> Result<Vec<Reach>, E> {
         let Some(shadows) = self.air.common() else { return Ok(Vec::new()) };
-        let cast = |(window, shape): &(Window, Shape)| shadows.recast(shape, self.space, *window, interrupt);
-        let patches: Vec<_> = parts.par_iter().map(cast).collect::<Result<_, Cancelled>>()?;
+        let cast = |&window: &Window| Ok(shadows.recast(&shape(window)?, self.space, window, interrupt)?);
+        let patches: Vec<_> = windows.par_iter().map(cast).collect::<Result<_, E>>()?;
         interrupt.tick()?;
         let screen = self.screen();
         let Some(shadows) = self.air.common_mut() else { return Ok(Vec::new()) };
@@ -171,31 +176,33 @@ impl Easel {
     }
 
     /// Draws pieces of the picture anew, each with the object as it is there now: rays are cast where the object itself may have changed,
-    /// and all of the pieces are lit again. Nothing has changed if the work was stopped.
+    /// and all of the pieces are lit again. Nothing has changed if the work was stopped. `look` says how it looks, `shape` what it is in a
+    /// piece; that is asked only where rays are cast.
     ///
     /// # Errors
-    /// [`Cancelled`] soon after the interrupt was set.
+    /// [`Cancelled`] soon after the interrupt was set; what `shape` fails with.
     ///
     /// # Panics
     /// If a window is none of [`Screen::windows`].
-    pub fn redraw(
+    pub fn redraw<E: From<Cancelled> + Send>(
         &mut self,
-        parts: &[(Window, Thing)],
+        windows: &[Window],
+        (look, shape): (&Thing, &(dyn Fn(Window) -> Result<Shape, E> + Sync)),
         changed: &[Reach],
         interrupt: &Interrupt,
-    ) -> Result<Counters, Cancelled> {
-        let steps = |(window, _): &(Window, Thing)| points(&Frustum::new(self.scene()).within(*window));
-        interrupt.begin(2 * parts.iter().map(steps).sum::<u64>());
-        let mut pieces: Vec<Piece<'_>> =
-            parts.par_iter().map(|part| self.first(part, changed, interrupt)).collect::<Result<_, Cancelled>>()?;
+    ) -> Result<Counters, E> {
+        let steps = |window: &Window| points(&Frustum::new(self.scene()).within(*window));
+        interrupt.begin(2 * windows.iter().map(steps).sum::<u64>());
+        let first = |&window: &Window| self.first(window, (look, shape), changed, interrupt);
+        let mut pieces: Vec<Piece> = windows.par_iter().map(first).collect::<Result<_, E>>()?;
         if self.style.fine() > 1 {
             let width = self.style.size[0];
             let mut wanted = vec![false; width * self.style.size[1]];
             for piece in &pieces {
                 piece.wanted().for_each(|[x, y]| wanted[y * width + x] = true);
             }
-            let second = |piece: &mut Piece<'_>| self.second(piece, &wanted, interrupt);
-            pieces.par_iter_mut().map(second).collect::<Result<Vec<()>, Cancelled>>()?;
+            let second = |piece: &mut Piece| self.second(piece, (look, shape), &wanted, interrupt);
+            pieces.par_iter_mut().map(second).collect::<Result<Vec<()>, E>>()?;
         }
         interrupt.tick()?;
         let mut counters = Counters::default();
@@ -215,26 +222,28 @@ impl Easel {
     }
 
     /// A piece of the picture from rays through corners or middles.
-    fn first<'a>(
+    fn first<E: From<Cancelled>>(
         &self,
-        (window, thing): &'a (Window, Thing),
+        window: Window,
+        (look, shape): (&Thing, &(dyn Fn(Window) -> Result<Shape, E> + Sync)),
         changed: &[Reach],
         interrupt: &Interrupt,
-    ) -> Result<Piece<'a>, Cancelled> {
-        let brush = self.brush(thing);
-        let before = self.kept[self.number(*window)].clone();
+    ) -> Result<Piece, E> {
+        let brush = self.brush(look);
+        let before = self.kept[self.number(window)].clone();
         let is_new = before.is_none();
         let before = before.unwrap_or_default();
-        let touched = tiles(*window, if is_new { &[None] } else { changed });
+        let touched = tiles(window, if is_new { &[None] } else { changed });
         let pattern = if brush.fine > 1 { Pattern::Corners } else { Pattern::Middles };
-        let aim = Aim { pattern, tolerance: TOLERANCE, normals: true };
+        let aim = Aim { pattern, tolerance: EXACT, normals: true };
+        let mut made = None;
         let (met, counters) = if touched.contains(&true) {
             let seed = Seed { touched: &touched, hits: &before.met.1 };
-            search_in(&thing.shape, &self.scene(), *window, aim, Some(seed), interrupt)?
+            search_in(made.insert(shape(window)?), &self.scene(), window, aim, Some(seed), interrupt)?
         } else {
             (before.met.clone(), Counters::default())
         };
-        let size = size(*window);
+        let size = size(window);
         let lit = brush.lit(0, &Tile { from: window[0], size, hits: &met.1, places: &met.0 });
         let across = size[0] + usize::from(brush.fine > 1);
         let places = (0..lit.len()).filter(|&k| lit[k].is_some()).map(|k| {
@@ -244,20 +253,30 @@ impl Easel {
         let seen = places.map(|place| [place, place]).reduce(joined);
         let painted = brush.paint(window[0], size, &[&lit]);
         let shares = FxHashMap::default();
-        Ok(Piece { window: *window, thing, touched, before, met, shares, painted, seen, counters })
+        Ok(Piece { window, shape: made, touched, before, met, shares, painted, seen, counters })
     }
 
     /// The pixels of a piece that show edges, from more rays: those of `wanted` are cast, the others are known.
-    fn second(&self, piece: &mut Piece<'_>, wanted: &[bool], interrupt: &Interrupt) -> Result<(), Cancelled> {
+    fn second<E: From<Cancelled>>(
+        &self,
+        piece: &mut Piece,
+        (look, shape): (&Thing, &(dyn Fn(Window) -> Result<Shape, E> + Sync)),
+        wanted: &[bool],
+        interrupt: &Interrupt,
+    ) -> Result<(), E> {
         let edges: Vec<usize> = piece.edges().collect();
         if edges.is_empty() {
             return Ok(());
         }
-        let brush = self.brush(piece.thing);
+        let brush = self.brush(look);
         let (rays, size, from) = (brush.fine * brush.fine, size(piece.window), piece.window[0]);
         if piece.wanted().next().is_some() {
-            let aim = Aim { pattern: Pattern::Shares(brush.fine, wanted), tolerance: TOLERANCE, normals: true };
-            let (met, cost) = search_in(&piece.thing.shape, &self.scene(), piece.window, aim, None, interrupt)?;
+            let shape = match piece.shape.take() {
+                Some(shape) => shape,
+                None => shape(piece.window)?,
+            };
+            let aim = Aim { pattern: Pattern::Shares(brush.fine, wanted), tolerance: EXACT, normals: true };
+            let (met, cost) = search_in(&shape, &self.scene(), piece.window, aim, None, interrupt)?;
             piece.counters.add(cost);
             for (places, hits) in met.0.chunks_exact(rays).zip(met.1.chunks_exact(rays)) {
                 let [x, y] = [0, 1].map(|k| places[0][k] as usize - from[k]);
@@ -289,7 +308,7 @@ impl Easel {
         Ok(())
     }
 
-    fn put(&mut self, piece: Piece<'_>, counters: &mut Counters) {
+    fn put(&mut self, piece: Piece, counters: &mut Counters) {
         let number = self.number(piece.window);
         let Piece { window: [from, to], painted, seen, met, shares, .. } = piece;
         counters.add(piece.counters);
@@ -322,7 +341,7 @@ impl Easel {
         marked[pixel[1] * scene.rays[0] + pixel[0]] = true;
         let from = pixel.map(|v| v / PIECE * PIECE);
         let window = [from, [0, 1].map(|k| (from[k] + PIECE).min(scene.rays[k]))];
-        let aim = Aim { pattern: Pattern::Shares(1, &marked), tolerance: 1e-12, normals: true };
+        let aim = Aim { pattern: Pattern::Shares(1, &marked), tolerance: EXACT, normals: true };
         let ((_, hits), _) = search_in(&thing.shape, &scene, window, aim, None, interrupt)?;
         interrupt.tick()?;
         let hit: Option<Hit> = hits.into_iter().flatten().next();
@@ -334,7 +353,7 @@ impl Easel {
     }
 }
 
-impl Piece<'_> {
+impl Piece {
     /// Its pixels that show edges, row by row.
     fn edges(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.painted.pixels.len()).filter(|&k| self.painted.pixels[k].edge)

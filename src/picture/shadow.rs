@@ -6,7 +6,7 @@ use super::camera::Camera;
 use super::extent::Extent;
 use super::raycast::Space;
 use super::rays::{Aim, Hit, Pattern, Scene, cast_on, search_in};
-use super::screen::{PIECE, Screen, Window};
+use super::screen::{Screen, TILE, Window};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::sampler::Counters;
 use crate::vm::Shape;
@@ -64,7 +64,7 @@ impl Shadows {
 
     /// What the light sees.
     pub(super) fn screen(&self) -> Screen {
-        Screen { camera: self.camera, size: [self.side; 2] }
+        Screen { camera: self.camera, size: [self.side; 2], piece: 2 * TILE }
     }
 
     /// The depths in a part of what the light sees, piece by piece, found by a search; they are still to be put in.
@@ -75,7 +75,7 @@ impl Shadows {
         window: Window,
         interrupt: &Interrupt,
     ) -> Result<Patch, Cancelled> {
-        let scene = Scene { camera: self.camera, space, rays: [self.side; 2], tile: PIECE / 4 };
+        let scene = Scene { camera: self.camera, space, rays: [self.side; 2], tile: TILE };
         let aim = Aim { pattern: Pattern::Middles, tolerance: 0.05 / self.side as f64, normals: false };
         let depth = |hit: Option<Hit>| hit.map_or(f32::INFINITY, |hit| hit.depth as f32);
         let ((_, hits), _) = search_in(shape, &scene, window, aim, None, interrupt)?;

@@ -41,10 +41,12 @@ impl Local {
         if let Some(&here) = self.known.get(&root) {
             return Some(here);
         }
-        // Maps are expanded once, as a compiler does it.
-        let here = match expand(from, &[root], limit).ok()? {
+        // Maps are expanded once, as a compiler does it, in a graph that holds nothing else.
+        let mut alone = Graph::new();
+        let root_alone = copy(from, root, &mut alone, &mut FxHashMap::default());
+        let here = match expand(&alone, &[root_alone], limit).ok()? {
             Some((expanded, roots)) => copy(&expanded, roots[0], &mut self.store, &mut FxHashMap::default()),
-            None => copy(from, root, &mut self.store, &mut self.known),
+            None => copy(&alone, root_alone, &mut self.store, &mut FxHashMap::default()),
         };
         self.known.insert(root, here);
         Some(here)

@@ -15,12 +15,12 @@ mod tools;
 use std::path::Path;
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::diagnostic::{Category, Diagnostic};
 use crate::export;
 use crate::field::{Coordinate, NodeId};
+use crate::limits::Limits;
 use crate::number::{Algebra, Binary};
 use crate::picture::easel::Easel;
 use crate::picture::raycast::{Space, Thing};
@@ -326,39 +326,27 @@ impl Carving {
         Ok(Drawn::Whole)
     }
 
-    /// Looks again from the light; where on the picture there is another light then.
+    /// Looks again from the light; where on the picture there may be another light then.
     fn relight(&mut self, session: &Session, windows: &[Window]) -> Asked<Vec<Reach>> {
-        let shapes = self.shapes(session, windows, |s| &s.lit_near)?;
-        let parts: Vec<(Window, Shape)> = windows.iter().copied().zip(shapes).collect();
+        let base = self.base_here(session).map_err(|told| vec![told])?;
         let _phase = session.interrupt.phase("shadows");
-        self.easel.relight(&parts, &session.interrupt).map_err(|_| vec![cancelled()])
+        let Self { easel, local, strokes, studio, .. } = self;
+        let near = Near { local, strokes, studio, base, limits: &session.limits };
+        let shape = |window: Window| near.shape(|s| meets(&s.lit_near, window));
+        easel.relight(windows, &shape, &session.interrupt).map_err(|told| vec![told])
     }
 
     /// Draws pieces of the picture anew; the workpiece itself may have changed at some places.
     fn redraw(&mut self, session: &Session, windows: &[Window], changed: &[Reach]) -> Asked<()> {
-        let shapes = self.shapes(session, windows, |s| &s.seen_near)?;
-        let thing = |shape| Thing::opaque(shape, self.studio.paint.clone());
-        let parts: Vec<(Window, Thing)> = windows.iter().copied().zip(shapes.into_iter().map(thing)).collect();
+        let base = self.base_here(session).map_err(|told| vec![told])?;
+        let look = Thing::opaque(self.shape(session, |_| false).map_err(|told| vec![told])?, self.studio.paint.clone());
         let _phase = session.interrupt.phase("picture");
-        self.easel.redraw(&parts, changed, &session.interrupt).map_err(|_| vec![cancelled()])?;
+        let Self { easel, local, strokes, studio, .. } = self;
+        let near = Near { local, strokes, studio, base, limits: &session.limits };
+        let shape = |window: Window| near.shape(|s| meets(&s.seen_near, window));
+        easel.redraw(windows, (&look, &shape), changed, &session.interrupt).map_err(|told| vec![told])?;
         self.torn = false;
         Ok(())
-    }
-
-    /// For each piece of a screen the object with those strokes alone that are seen there.
-    fn shapes(
-        &mut self,
-        session: &Session,
-        windows: &[Window],
-        near: impl Fn(&Stroke) -> &Reach + Sync,
-    ) -> Asked<Vec<Shape>> {
-        let _phase = session.interrupt.phase("compile");
-        let base = self.base_here(session).map_err(|told| vec![told])?;
-        let shape = |window: &Window| {
-            session.interrupt.tick()?;
-            self.shape_of(session, base, |s| meets(near(s), *window))
-        };
-        windows.par_iter().map(shape).collect::<Result<_, Diagnostic>>().map_err(|told| vec![told])
     }
 
     /// The strokes that end in a definition, oldest first, back to one that is known or to the definition before all of them.
@@ -448,7 +436,8 @@ impl Carving {
     /// The object with some of the strokes.
     fn shape(&mut self, session: &Session, with: impl Fn(&Stroke) -> bool) -> Result<Shape, Diagnostic> {
         let base = self.base_here(session)?;
-        self.shape_of(session, base, with)
+        let Self { local, strokes, studio, .. } = self;
+        Near { local, strokes, studio, base, limits: &session.limits }.shape(with)
     }
 
     /// The workpiece in the store.
@@ -456,14 +445,6 @@ impl Carving {
         let limit = session.limits.program_operations;
         let base = self.local.take(&session.graph, self.base.1, limit);
         base.ok_or_else(|| too_large(&self.studio.name, &format!("more than {limit} operations")))
-    }
-
-    fn shape_of(&self, session: &Session, base: NodeId, with: impl Fn(&Stroke) -> bool) -> Result<Shape, Diagnostic> {
-        let links = self.strokes.iter().filter(|s| with(s)).map(|s| &s.link);
-        let (graph, node, _) = self.local.chain(base, links, None);
-        let program = Program::compile(&graph, node, &self.studio.inputs, Demand::Sign, &session.limits);
-        let program = program.map_err(|error| too_large(&self.studio.name, &error.to_string()))?;
-        Ok(Shape { precision: self.studio.precision, ..Shape::new(program, 3, self.studio.fixed.clone()) })
     }
 
     /// Where a tool is about the origin, with what is at most `more` beyond its boundary by its own values.
@@ -504,6 +485,26 @@ impl Carving {
     fn evaluated(&self, session: &mut Session, text: &str) -> Asked<NodeId> {
         let node = session.function_of("<tool>", &format!("tr_shift({text}, [0, 0, 0])"))?;
         node.ok_or_else(|| vec![errors::no_tool(text, "it is no function of the coordinates")])
+    }
+}
+
+/// What shapes of the object near some place are made of.
+struct Near<'a> {
+    local: &'a Local,
+    strokes: &'a [Stroke],
+    studio: &'a Studio,
+    base: NodeId,
+    limits: &'a Limits,
+}
+
+impl Near<'_> {
+    /// The object with some of the strokes.
+    fn shape(&self, with: impl Fn(&Stroke) -> bool) -> Result<Shape, Diagnostic> {
+        let links = self.strokes.iter().filter(|s| with(s)).map(|s| &s.link);
+        let (graph, node, _) = self.local.chain(self.base, links, None);
+        let program = Program::compile(&graph, node, &self.studio.inputs, Demand::Sign, self.limits);
+        let program = program.map_err(|error| too_large(&self.studio.name, &error.to_string()))?;
+        Ok(Shape { precision: self.studio.precision, ..Shape::new(program, 3, self.studio.fixed.clone()) })
     }
 }
 

@@ -35,7 +35,7 @@ pub struct Seed<'a> {
     pub hits: &'a [Option<Hit>],
 }
 
-/// Where the rays through a part of the picture meet the object, and their places: from a first column and row, multiples of four tiles, to one
+/// Where the rays through a part of the picture meet the object, and their places: from a first column and row, multiples of a tile, to one
 /// past the last ones, at most four tiles farther. They are those of the whole picture, to the bit, if the shape is the same there. Nothing
 /// of it is kept for another time.
 ///
