@@ -11,6 +11,7 @@ mod diagnostics;
 mod examples;
 mod export;
 mod field;
+mod folds;
 mod formats;
 mod formula;
 mod hostile;

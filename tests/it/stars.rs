@@ -46,8 +46,10 @@ fn gauge(graph: &Graph, node: NodeId, centre: [f64; 3]) -> Gauge {
         centre: centre.to_vec(),
         gauge: of(star.gauge),
         positive: star.positive.map(of),
+        single: star.single.map(of),
         finite: star.finite.map(of),
         fixed: Vec::new(),
+        parts: None,
     };
     prove(&gauge, &Interrupt::default()).expect("nobody stops it").expect("a proof");
     gauge
