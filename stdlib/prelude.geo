@@ -16,6 +16,7 @@ INCLUDE "operations/mappings.geo";
 INCLUDE "operations/deformations.geo";
 INCLUDE "operations/patterns.geo";
 INCLUDE "operations/products.geo";
+INCLUDE "operations/carving.geo";
 INCLUDE "operations/time.geo";
 INCLUDE "operations/textures.geo";
 INCLUDE "relations/relations.geo";

@@ -6,6 +6,7 @@ use crate::export::terminal::{self, Drawing};
 use crate::host::variable;
 use crate::model::request;
 use crate::model::{Session, settings};
+use crate::picture::Image;
 
 use super::arguments::{Images, Making};
 use super::console::Console;
@@ -93,6 +94,16 @@ pub fn show(console: &Console, session: &mut Session, making: &Making, drawing: 
         Ok(image) => console.write(|out| terminal::write(&image, drawing, out)).map(|()| Status::Done),
         Err(diagnostics) => Ok(console.report(session.sources(), &diagnostics)),
     }
+}
+
+/// Shows a picture that is made already, where the terminal can.
+///
+/// # Errors
+/// The status of a broken standard output.
+pub fn image(console: &Console, making: &Making, image: &Image) -> Result<Status, Status> {
+    let Some(drawing) = drawing(making.display.images) else { return Ok(Status::Done) };
+    let small = request::shrunk(image.clone(), room(drawing));
+    console.write(|out| terminal::write(&small, drawing, out)).map(|()| Status::Done)
 }
 
 /// Draws an object that nobody asked a picture of, where the terminal can; what cannot be drawn is told in a line.

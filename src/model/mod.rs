@@ -2,6 +2,7 @@
 //!
 //! A definition is a formula, never a stored value; values are kept beside it and found again when something that they read changes.
 
+pub mod carving;
 mod check;
 mod definition;
 pub mod environment;

@@ -91,6 +91,8 @@ pub struct Session {
     pub(super) unnamed: Option<NodeId>,
     /// Modelling spaces that were found, of objects of this graph.
     pub(super) searched: Vec<Searched>,
+    /// How often the graph was made anew: nodes of an earlier one mean nothing now.
+    pub(super) graphs: u64,
 }
 
 /// The name under which requests find the object that the last bare expression made.
@@ -137,6 +139,7 @@ impl Session {
             settled: 0,
             unnamed: None,
             searched: Vec::new(),
+            graphs: 0,
         }
     }
 
@@ -147,6 +150,18 @@ impl Session {
         self.tidy();
         self.again.clear();
         self.transaction(id, mode, title_of(text))
+    }
+
+    /// The function of the coordinates that an expression of objects is, as a node of the graph as it stands; nothing if it is a number.
+    ///
+    /// # Errors
+    /// Messages for the user.
+    pub(super) fn function_of(&mut self, name: &str, expression: &str) -> Result<Option<NodeId>, Vec<Diagnostic>> {
+        let id = self.sources.add(name, expression);
+        let before = self.unnamed;
+        let outcome = self.transaction(id, Mode::Prompt, String::new());
+        let found = std::mem::replace(&mut self.unnamed, before);
+        if outcome.accepted { Ok(found) } else { Err(outcome.diagnostics) }
     }
 
     /// `-D NAME=EXPR`: gives a name another definition, also in scripts that are still to come.
@@ -186,6 +201,7 @@ impl Session {
     fn tidy(&mut self) {
         if self.graph.len() > LEFT_BEHIND + 2 * self.settled {
             self.graph = Graph::new();
+            self.graphs += 1;
             self.searched.clear();
             self.unnamed = None;
             self.state.forget_all();

@@ -11,6 +11,9 @@ const STEPS: usize = 128;
 /// Newton's steps of this size end a root search: the error behind one is about its square.
 const CLOSE: f64 = 1e-9;
 
+/// Steps of the search for the first change of sign: beyond them roots are too near each other to be worth it.
+const ROUNDS: usize = 8;
+
 /// How much smaller a halving must be for the same.
 const HALVED: f64 = 1e6;
 
@@ -37,6 +40,7 @@ pub fn roots<const L: usize>(c: &[[f64; L]], lo: f64, hi: f64, out: &mut [[f64; 
             }
             2
         }
+        [..] if c.len() <= MOST + 1 && c.len() > 3 && is_simple(c, lo, hi, &mut out[0]) => 1,
         [_, b, c2, c3] => {
             let stops = turns_of_cubic([b, c2, c3], lo, hi);
             sections(c, &stops, lo, hi, out, false);
@@ -56,6 +60,22 @@ pub fn roots<const L: usize>(c: &[[f64; L]], lo: f64, hi: f64, out: &mut [[f64; 
     }
 }
 
+/// The first place between `lo` and `hi` where each of the polynomials changes its sign, infinite where there is none. `false` if some
+/// were not found, as two may lie too near each other; a place where it touches zero may be among those that were.
+#[inline(always)]
+pub fn first<const L: usize>(c: &[[f64; L]], lo: f64, hi: f64, out: &mut [f64; L]) -> bool {
+    match c {
+        [c0, c1, c2, c3] => first_by_signs([c0, c1, c2, c3], lo, hi, out),
+        [c0, c1, c2, c3, c4] => first_by_signs([c0, c1, c2, c3, c4], lo, hi, out),
+        _ => {
+            let mut all = [[NONE; L]; MOST];
+            let count = roots(c, lo, hi, &mut all);
+            *out = if count > 0 { all[0] } else { [NONE; L] };
+            count > 0
+        }
+    }
+}
+
 /// The values of polynomials, each at its own place.
 #[inline(always)]
 pub fn value<const L: usize>(c: &[[f64; L]], t: &[f64; L]) -> [f64; L] {
@@ -66,6 +86,123 @@ pub fn value<const L: usize>(c: &[[f64; L]], t: &[f64; L]) -> [f64; L] {
         }
     }
     sum
+}
+
+/// The coefficients in the basis of Bernstein from `from` on, over `step`: there are at most as many roots as these change their sign, and
+/// one exactly if they do once.
+#[inline(always)]
+fn bernstein<const N: usize, const L: usize>(c: [&[f64; L]; N], from: &[f64; L], step: &[f64; L]) -> [[f64; L]; N] {
+    let mut all = c.map(|row| *row);
+    // About the beginning, by synthetic division.
+    for k in 0..N {
+        for j in (k + 1..N).rev() {
+            for i in 0..L {
+                all[j - 1][i] += from[i] * all[j][i];
+            }
+        }
+    }
+    // In units of the step, divided by the binomial coefficients; then their sums as in Pascal's triangle.
+    let mut unit = [1.0; L];
+    let mut choices = 1.0;
+    for (j, row) in all.iter_mut().enumerate().skip(1) {
+        choices *= (N - j) as f64 / j as f64;
+        for i in 0..L {
+            unit[i] *= step[i];
+            row[i] *= unit[i] / choices;
+        }
+    }
+    for k in 1..N {
+        for j in (k..N).rev() {
+            for i in 0..L {
+                all[j][i] += all[j - 1][i];
+            }
+        }
+    }
+    all
+}
+
+/// How often the signs change from row to row.
+#[inline(always)]
+fn changes<const N: usize, const L: usize>(rows: &[[f64; L]; N]) -> [f64; L] {
+    let mut count = [0.0; L];
+    for k in 1..N {
+        for i in 0..L {
+            count[i] += if (rows[k - 1][i] < 0.0) == (rows[k][i] < 0.0) { 0.0 } else { 1.0 };
+        }
+    }
+    count
+}
+
+/// Whether none of the polynomials, of degree three or four, can have more than one root in the interval, and that.
+#[inline(always)]
+fn is_simple<const L: usize>(c: &[[f64; L]], lo: f64, hi: f64, out: &mut [f64; L]) -> bool {
+    let (from, step) = ([lo; L], [hi - lo; L]);
+    let (count, is_low) = match c {
+        [c0, c1, c2, c3] => {
+            let rows = bernstein([c0, c1, c2, c3], &from, &step);
+            (changes(&rows), rows[0])
+        }
+        [c0, c1, c2, c3, c4] => {
+            let rows = bernstein([c0, c1, c2, c3, c4], &from, &step);
+            (changes(&rows), rows[0])
+        }
+        _ => return false,
+    };
+    if count.iter().any(|&n| n > 1.0) {
+        return false;
+    }
+    *out = [NONE; L];
+    if count.iter().any(|&n| n > 0.0) {
+        let sign = is_low.map(|v| if v < 0.0 { 1.0 } else { -1.0 });
+        let ends = count.map(|n| if n > 0.0 { hi } else { lo });
+        let root = between(c, &sign, from, ends);
+        for i in 0..L {
+            out[i] = if count[i] > 0.0 { within(root[i], lo, hi) } else { NONE };
+        }
+    }
+    true
+}
+
+/// The first change of sign of each polynomial, looked for in steps that halve where there may be several and double where there is none.
+#[inline(always)]
+fn first_by_signs<const N: usize, const L: usize>(c: [&[f64; L]; N], lo: f64, hi: f64, out: &mut [f64; L]) -> bool {
+    let (mut from, mut step) = ([lo; L], [hi - lo; L]);
+    // A closed bracket stays where there is no root.
+    let (mut begin, mut end) = ([lo; L], [lo; L]);
+    let (mut open, mut found) = ([1.0; L], [0.0; L]);
+    let low = value(&c.map(|row| *row), &from).map(|v| if v < 0.0 { 1.0 } else { -1.0 });
+    for _ in 0..ROUNDS {
+        let rows = bernstein(c, &from, &step);
+        let count = changes(&rows);
+        let mut is_left = false;
+        for i in 0..L {
+            // Rounding may have hidden a root at the end of the step before.
+            let jumped = rows[0][i] * low[i] > 0.0;
+            let (is_open, to) = (open[i] > 0.0, from[i] + step[i]);
+            let meets = is_open & (jumped | (count[i] == 1.0));
+            let passes = is_open & !jumped & (count[i] == 0.0);
+            begin[i] = if meets { from[i] } else { begin[i] };
+            end[i] = if meets { if jumped { from[i] } else { to } } else { end[i] };
+            found[i] = if meets { 1.0 } else { found[i] };
+            let rest = hi - to;
+            let is_last = rest <= 1e-14 * (hi - lo);
+            open[i] = if meets | (passes & is_last) { 0.0 } else { open[i] };
+            is_left |= open[i] > 0.0;
+            let longer = if 2.0 * step[i] < rest { 2.0 * step[i] } else { rest };
+            from[i] = if passes { to } else { from[i] };
+            step[i] = if passes { longer } else { 0.5 * step[i] };
+        }
+        if !is_left {
+            break;
+        }
+    }
+    let root = between(&c.map(|row| *row), &low, begin, end);
+    let mut is_whole = true;
+    for i in 0..L {
+        out[i] = if found[i] > 0.0 { within(root[i], lo, hi) } else { NONE };
+        is_whole &= open[i] == 0.0;
+    }
+    is_whole
 }
 
 #[inline(always)]
@@ -151,7 +288,7 @@ fn between<const L: usize>(c: &[[f64; L]], sign: &[f64; L], mut lo: [f64; L], mu
                 here[i] = here[i] * t[i] + c[i];
             }
         }
-        let mut moved = 0.0_f64;
+        let mut moves = false;
         for i in 0..L {
             let is_low = here[i] * sign[i] < 0.0;
             lo[i] = if is_low { t[i] } else { lo[i] };
@@ -162,10 +299,10 @@ fn between<const L: usize>(c: &[[f64; L]], sign: &[f64; L], mut lo: [f64; L], mu
             let next = if here[i] == 0.0 { t[i] } else { next };
             let change = (next - t[i]).abs() * if follows { 1.0 } else { HALVED };
             let change = if (lo[i] < middle) & (middle < hi[i]) { change } else { 0.0 };
-            moved = if change > moved { change } else { moved };
+            moves |= change >= CLOSE;
             t[i] = next;
         }
-        if moved < CLOSE {
+        if !moves {
             break;
         }
     }

@@ -164,10 +164,25 @@ impl Camera {
     /// The first point and the change by depth of the ray through (u, v).
     #[must_use]
     pub fn ray(&self, u: f64, v: f64) -> ([f64; 3], [f64; 3]) {
-        let at = |k: usize, [width, height]: [f64; 2]| u * width * self.right[k] + v * height * self.up[k];
-        let start = std::array::from_fn(|k| self.eye[k] + at(k, self.base));
-        let direction = std::array::from_fn(|k| self.forward[k] + at(k, self.growth));
-        (start, direction)
+        let along: [(f64, f64); 3] = std::array::from_fn(|k| self.ray_along(k, u, v));
+        (along.map(|(start, _)| start), along.map(|(_, direction)| direction))
+    }
+
+    /// The same along one axis.
+    #[inline(always)]
+    pub(super) fn ray_along(&self, axis: usize, u: f64, v: f64) -> (f64, f64) {
+        let at = |[width, height]: [f64; 2]| u * width * self.right[axis] + v * height * self.up[axis];
+        (self.eye[axis] + at(self.base), self.forward[axis] + at(self.growth))
+    }
+
+    /// Where a point is on the picture, as (u, v) of [`Camera::ray`]; `None` if the eye is not before it.
+    #[must_use]
+    pub fn place(&self, point: [f64; 3]) -> Option<[f64; 2]> {
+        let away: [f64; 3] = std::array::from_fn(|k| point[k] - self.eye[k]);
+        let depth = dot(away, self.forward);
+        let half = |axis: usize| self.base[axis] + depth * self.growth[axis];
+        let at = [dot(away, self.right) / half(0), dot(away, self.up) / half(1)];
+        (depth > 0.0 && at.iter().all(|v| v.is_finite())).then_some(at)
     }
 
     /// The nearest and farthest depth of the box.

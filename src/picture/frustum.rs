@@ -18,6 +18,8 @@ pub(super) struct Frustum {
     cells: usize,
     /// How far rounding may carry a computed point beyond the hull of computed corners.
     slack: f64,
+    /// The first and one past the last column and row of rays that are cast.
+    window: [[usize; 2]; 2],
 }
 
 impl Frustum {
@@ -31,7 +33,13 @@ impl Frustum {
         let cells = ((far - near) / (2.0 * footprint)).ceil().clamp(1.0, 16_384.0) as usize;
         let size =
             (0..3).map(|k| lo[k].abs().max(hi[k].abs()).max(scene.camera.eye[k].abs())).fold(far.abs(), f64::max);
-        Self { scene, near, far, cells: cells.next_multiple_of(LEAF_DEPTH), slack: 1e-13 * size }
+        let window = [[0; 2], scene.rays];
+        Self { scene, near, far, cells: cells.next_multiple_of(LEAF_DEPTH), slack: 1e-13 * size, window }
+    }
+
+    /// The same for a part of the picture: its first column and row, and one past its last ones; it begins at multiples of four tiles.
+    pub(super) fn within(self, window: [[usize; 2]; 2]) -> Self {
+        Self { window, ..self }
     }
 
     pub(super) fn depth(&self, cell: usize) -> f64 {
@@ -61,6 +69,11 @@ impl Lattice for Frustum {
     /// A ray seen whole is as good as the whole space, unless it runs along an axis.
     fn part(&self) -> [usize; 3] {
         [4 * self.scene.tile, 4 * self.scene.tile, 4 * LEAF_DEPTH]
+    }
+
+    fn window(&self) -> Block {
+        let [[left, top], [right, bottom]] = self.window;
+        Block { from: [left, top, 0], to: [right, bottom, self.cells] }
     }
 
     fn tell(&self, to: &mut Digest) -> bool {
@@ -106,14 +119,7 @@ impl Ray {
     fn new(start: [f64; 3], direction: [f64; 3], space: Space) -> Self {
         let mut ray = Self { start, direction, enter: 0.0, leave: f64::INFINITY, face: 2 };
         for k in 0..3 {
-            if direction[k] == 0.0 {
-                if start[k] < space.lo[k] || start[k] > space.hi[k] {
-                    ray.leave = f64::NEG_INFINITY;
-                }
-                continue;
-            }
-            let (a, b) = ((space.lo[k] - start[k]) / direction[k], (space.hi[k] - start[k]) / direction[k]);
-            let (first, last) = if a <= b { (a, b) } else { (b, a) };
+            let (first, last) = slab(start[k], direction[k], space.lo[k], space.hi[k]);
             if first > ray.enter {
                 (ray.enter, ray.face) = (first, k);
             }
@@ -139,13 +145,30 @@ impl Ray {
 
     /// The unit vector along `v` or against it, whichever is turned to the eye; `None` if `v` has no direction.
     pub(super) fn facing(&self, v: [f64; 3]) -> Option<[f64; 3]> {
-        let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-        if !(largest > 0.0 && largest.is_finite() && v.iter().all(|c| c.is_finite())) {
-            return None;
-        }
-        let scaled = v.map(|c| c / largest);
-        let along: f64 = (0..3).map(|k| scaled[k] * self.direction[k]).sum();
-        let length = scaled.iter().map(|c| c * c).sum::<f64>().sqrt();
-        Some(scaled.map(|c| if along > 0.0 { -c / length } else { c / length }))
+        Some(facing(v, self.direction)).filter(|unit| !unit[0].is_nan())
     }
+}
+
+/// The depths between which a ray lies in the range of one axis.
+#[inline(always)]
+pub(super) fn slab(start: f64, direction: f64, lo: f64, hi: f64) -> (f64, f64) {
+    let (a, b) = ((lo - start) / direction, (hi - start) / direction);
+    let (first, last) = if a <= b { (a, b) } else { (b, a) };
+    let is_out = (start < lo) | (start > hi);
+    let always = if is_out { f64::NEG_INFINITY } else { f64::INFINITY };
+    if direction == 0.0 { (f64::NEG_INFINITY, always) } else { (first, last) }
+}
+
+/// The unit vector along `v` or against it, whichever is turned against the direction; undefined (NaN) if `v` has no direction.
+#[inline(always)]
+pub(super) fn facing(v: [f64; 3], direction: [f64; 3]) -> [f64; 3] {
+    let size = v.map(f64::abs);
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let largest = larger(larger(size[0], size[1]), size[2]);
+    let is_finite = (size[0] < f64::INFINITY) & (size[1] < f64::INFINITY) & (size[2] < f64::INFINITY);
+    let scaled = v.map(|c| c / largest);
+    let along = scaled[0] * direction[0] + scaled[1] * direction[1] + scaled[2] * direction[2];
+    let length = (scaled[0] * scaled[0] + scaled[1] * scaled[1] + scaled[2] * scaled[2]).sqrt();
+    let length = if along > 0.0 { -length } else { length };
+    scaled.map(|c| if is_finite & (largest > 0.0) { c / length } else { f64::NAN })
 }

@@ -13,6 +13,7 @@ const SIDES: usize = 40;
 const THROWN: f32 = 0.25;
 
 /// The depths that each side sees first.
+#[derive(Debug)]
 pub(super) struct Occlusion {
     sides: Vec<([f64; 3], Shadows)>,
 }

@@ -176,7 +176,7 @@ fn rendered(
     }
     let scene = Scene { camera: *camera, space, rays: style.size, tile: 8 };
     let lights = Lights::new(camera, style.light, style.fill);
-    let side = (width.max(height) * 3 / 4).clamp(256, 2048);
+    let side = side(style);
     let sun = Shadows::scene(space, lights.key(), side).steps();
     let passes = if style.fine() > 1 { 2 } else { 1 };
     let shadows = if style.shadow > 0.0 { sun } else { 0 };
@@ -203,6 +203,11 @@ fn rendered(
     Ok(picture)
 }
 
+/// Rays of the key light along each side of what it sees.
+pub(super) fn side(style: &Style) -> usize {
+    (style.size[0].max(style.size[1]) * 3 / 4).clamp(256, 2048)
+}
+
 /// A picture with a shorter side than this takes more rays through all of its pixels, as does a small one in which nothing is seen.
 const NARROW: usize = 8;
 
@@ -210,7 +215,7 @@ const NARROW: usize = 8;
 const MOST_SMALL: usize = 1 << 16;
 
 /// What is between the lights and the objects.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Air {
     pub(super) lights: Lights,
     /// Where the key light reaches past all opaque objects.
@@ -221,6 +226,19 @@ pub(super) struct Air {
 }
 
 impl Air {
+    /// The lights, and where the key light reaches.
+    pub(super) fn under(lights: Lights, common: Option<Shadows>) -> Self {
+        Self { lights, common, ..Self::default() }
+    }
+
+    pub(super) fn common(&self) -> Option<&Shadows> {
+        self.common.as_ref()
+    }
+
+    pub(super) fn common_mut(&mut self) -> Option<&mut Shadows> {
+        self.common.as_mut()
+    }
+
     fn cast_shadows(
         &mut self,
         things: &[Thing],

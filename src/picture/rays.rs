@@ -5,18 +5,21 @@
 //! sample spacing along a ray is found where the function has a maximum between samples, as at silhouettes.
 
 mod algebraic;
+mod lanes;
+mod search;
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::reuse::Digest;
-use crate::surface::boxes::{Block, Visitor, points, walk_on};
+use crate::surface::boxes::{Block, Visitor, points};
 use crate::surface::memory::Left;
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::{Program, Shape};
 
 pub use algebraic::cast_on;
+pub use search::{search_in, search_on};
 
 use super::camera::Camera;
 use super::frustum::{Frustum, Ray};
@@ -39,9 +42,16 @@ pub struct Scene {
 impl Scene {
     /// The start and the change by depth of the ray through a place, in cells from the top left.
     #[must_use]
-    pub fn through(&self, [x, y]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
+    pub fn through(&self, place: [f64; 2]) -> ([f64; 3], [f64; 3]) {
+        let [u, v] = self.view(place);
+        self.camera.ray(u, v)
+    }
+
+    /// The place in the camera's view, from -1 to 1.
+    #[inline(always)]
+    fn view(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [columns, rows] = self.rays;
-        self.camera.ray(2.0 * (x / columns as f64) - 1.0, 1.0 - 2.0 * (y / rows as f64))
+        [2.0 * (x / columns as f64) - 1.0, 1.0 - 2.0 * (y / rows as f64)]
     }
 
     /// What casting rays into it advances the progress by.
@@ -135,25 +145,6 @@ pub fn heights(
         }
     }
     Ok((all, counters))
-}
-
-/// Casts the rays that are wanted by a search, whatever the object is, as a part of a task whose progress was begun already.
-///
-/// # Errors
-/// [`Cancelled`] soon after the interrupt was set.
-pub fn search_on<T: Send>(
-    shape: &Shape,
-    scene: &Scene,
-    aim: Aim<'_>,
-    finish: impl Fn(Tile<'_>) -> T + Sync,
-    interrupt: &Interrupt,
-) -> Result<Tiles<T>, Cancelled> {
-    let frustum = Frustum::new(*scene);
-    let keeps = interrupt.reuse().is_some();
-    let visitor = |block: &Block| Caster::new(&frustum, (shape, aim), block, &finish, keeps);
-    let done = walk_on(&frustum, shape, visitor, interrupt)?;
-    let tiles = done.visitors.into_iter().filter_map(|caster| Some((caster.from, caster.size, caster.result?)));
-    Ok((tiles.collect(), done.counters))
 }
 
 /// Narrowing steps towards a maximum: each leaves 0.618 of the bracket, so its place is known to 1e-5 of a sample's spacing.

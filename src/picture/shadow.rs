@@ -3,7 +3,8 @@
 use super::camera::Camera;
 use super::extent::Extent;
 use super::raycast::Space;
-use super::rays::{Aim, Pattern, Scene, cast_on};
+use super::rays::{Aim, Hit, Pattern, Scene, Tile, cast_on, search_in};
+use super::screen::{PIECE, Screen, Window};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::sampler::Counters;
 use crate::vm::Shape;
@@ -18,6 +19,9 @@ pub struct Shadows {
     texel: f64,
 }
 
+/// A part of what the light sees: first column and row, columns and rows, depths.
+pub(super) type Patch = ([usize; 2], [usize; 2], Vec<f32>);
+
 /// Rays around a point over which the edge of a shadow is softened.
 const SOFT: f64 = 2.5;
 
@@ -27,6 +31,71 @@ impl Shadows {
     pub fn scene(space: Space, towards: [f64; 3], side: usize) -> Scene {
         let camera = Camera::parallel(towards.map(|v| -v), &Extent::whole(space));
         Scene { camera, space, rays: [side, side], tile: 8 }
+    }
+
+    /// No light reaches anything yet: what it sees is still to be put in, part by part.
+    #[must_use]
+    pub(super) fn dark(space: Space, towards: [f64; 3], side: usize) -> Self {
+        let camera = Self::scene(space, towards, side).camera;
+        let texel = 2.0 * camera.base[0].max(camera.base[1]) / side as f64;
+        Self { camera, side, depths: vec![f32::INFINITY; side * side], texel }
+    }
+
+    /// What the light sees.
+    pub(super) fn screen(&self) -> Screen {
+        Screen { camera: self.camera, size: [self.side; 2] }
+    }
+
+    /// The depths in a part of what the light sees, piece by piece, found by a search; they are still to be put in.
+    pub(super) fn recast(
+        &self,
+        shape: &Shape,
+        space: Space,
+        window: Window,
+        interrupt: &Interrupt,
+    ) -> Result<Vec<Patch>, Cancelled> {
+        let scene = Scene { camera: self.camera, space, rays: [self.side; 2], tile: PIECE / 4 };
+        let aim = Aim { pattern: Pattern::Middles, tolerance: 0.05 / self.side as f64, normals: false };
+        let depth = |hit: &Option<Hit>| hit.map_or(f32::INFINITY, |hit| hit.depth as f32);
+        let depths = |tile: Tile<'_>| tile.hits.iter().map(depth).collect::<Vec<f32>>();
+        Ok(search_in(shape, &scene, window, aim, depths, interrupt)?.0)
+    }
+
+    /// Puts depths in. Gives the corners of a hull of all points of the space whose light that changes, if it changes any.
+    pub(super) fn put(&mut self, (from, size, mut depths): Patch, space: Space) -> Option<Vec<[f64; 3]>> {
+        // A piece in which nothing is met says so by holding nothing.
+        depths.resize(size[0] * size[1], f32::INFINITY);
+        let (mut least, mut most) = ([usize::MAX; 2], [0; 2]);
+        let (near, far) = self.camera.depths(space.lo, space.hi);
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for (k, &new) in depths.iter().enumerate() {
+            let at = [from[0] + k % size[0], from[1] + k / size[0]];
+            let old = std::mem::replace(&mut self.depths[at[1] * self.side + at[0]], new);
+            if old.to_bits() != new.to_bits() {
+                (0..2).for_each(|axis| least[axis] = least[axis].min(at[axis]));
+                (0..2).for_each(|axis| most[axis] = most[axis].max(at[axis]));
+                for depth in [old, new].map(|depth| f64::from(depth).clamp(near, far)) {
+                    range = [range[0].min(depth), range[1].max(depth)];
+                }
+            }
+        }
+        (least[0] <= most[0]).then(|| self.hull(least, most, range))
+    }
+
+    /// The corners of what is behind some rays between two depths, and as far around it as a point looks for its light.
+    fn hull(&self, least: [usize; 2], most: [usize; 2], [near, far]: [f64; 2]) -> Vec<[f64; 3]> {
+        let around = (2.0 * SOFT + 2.0) * self.texel;
+        let corner = |n: usize| {
+            let place = |axis: usize, k: usize| {
+                let at = if k == 0 { least[axis] as f64 } else { most[axis] as f64 + 1.0 };
+                (2.0 * at / self.side as f64 - 1.0) * self.camera.base[axis] + if k == 0 { -around } else { around }
+            };
+            let (x, y) = (place(0, n & 1), -place(1, n >> 1 & 1));
+            let depth = if n & 4 == 0 { near - around } else { far + around };
+            let Camera { eye, right, up, forward, .. } = self.camera;
+            std::array::from_fn(|k| eye[k] + x * right[k] + y * up[k] + depth * forward[k])
+        };
+        (0..8).map(corner).collect()
     }
 
     /// Casts `side` x `side` parallel rays from the light into the space, as a part of a task whose progress was begun already; `towards`

@@ -8,7 +8,7 @@ use crate::host::{Disk, Host};
 use crate::model::request::{FORMATS, Kind, Output};
 use crate::{builtins, cli};
 
-use super::{Repl, asks};
+use super::{Repl, asks, carve};
 
 /// One command.
 #[derive(Debug)]
@@ -39,6 +39,8 @@ pub enum Argument {
     FileAndOptions,
     /// An option without its dashes, then its value.
     Option,
+    /// A tool for carving.
+    Tool,
     /// A command.
     Command,
 }
@@ -99,6 +101,35 @@ pub static TABLE: &[Command] = &[
         set,
     ),
     command("at", "[xN=VALUE]...", "look at a section; without a value, at the whole", Argument::None, at),
+    command(
+        "carve",
+        "NAME [FILE.png] [OPTION...]",
+        "take NAME as a workpiece and draw it; each stroke draws it again, into the file or here",
+        Argument::NameAndFile,
+        carve::carve,
+    ),
+    command(
+        "tool",
+        "[NAME [SIZE...] [depth=..] [blend=..] [turn=..]]",
+        "take a tool: one of the set, or an object of your own; alone, show the set",
+        Argument::Tool,
+        carve::tool,
+    ),
+    command(
+        "cut",
+        "PLACE...",
+        "carve: take away at pixels X,Y, lines of them X,Y..X,Y, or points [x1, x2, x3]",
+        Argument::None,
+        carve::cut,
+    ),
+    command("raise", "PLACE...", "chase: add there", Argument::None, carve::raise),
+    command(
+        "pick",
+        "PLACE",
+        "the point of the workpiece that a pixel X,Y shows, and its normal",
+        Argument::None,
+        carve::pick,
+    ),
     command("time", "", "how long the last input took, phase by phase", Argument::None, asks::time),
     command("recover", "", "run the inputs of a session that was killed", Argument::None, recover),
     command("quit", "", "leave", Argument::None, |_, _| Flow::Leave),

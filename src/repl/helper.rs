@@ -12,6 +12,7 @@ use rustyline::{Context, Helper};
 use crate::builtins;
 use crate::cli::arguments::{option_names, option_values};
 use crate::host::{Disk, Host};
+use crate::model::carving::TOOLS;
 use crate::limits::Limits;
 use crate::source::SourceMap;
 use crate::syntax::scan::RESERVED;
@@ -134,6 +135,13 @@ impl Assistant {
                 (from, found)
             }
             Some(Argument::Name) => self.word(before),
+            Some(Argument::Tool) => {
+                let (from, mut found) = self.word(before);
+                if from == start && words.is_empty() {
+                    found.splice(0..0, starting(TOOLS.iter().map(|tool| tool.name), word));
+                }
+                (from, found)
+            }
             Some(Argument::NameAndFile) if words.is_empty() => self.word(before),
             Some(Argument::NameAndFile) => files(before, start),
             Some(Argument::FileAndOptions) => match words.last().and_then(|last| last.strip_prefix("--")) {

@@ -1,6 +1,7 @@
 //! The prompt: reads inputs, gives them to the session, shows what comes back. Computes nothing.
 
 mod asks;
+mod carve;
 pub mod commands;
 pub mod helper;
 pub mod history;
@@ -52,6 +53,8 @@ pub struct Repl {
     costs: Option<(Duration, Costs)>,
     /// Comments that were typed as inputs of their own: they document what comes next.
     comments: String,
+    /// What is being carved.
+    work: Option<carve::Work>,
 }
 
 /// Runs the prompt until the user leaves, or, without a terminal, until the input ends.
@@ -59,8 +62,8 @@ pub fn start(prompt: Prompt) -> Status {
     let terminal = std::io::stdin().is_terminal();
     let memory = Memory::in_folder(if terminal { state_folder() } else { None });
     let Prompt { session, console, signals, making, .. } = prompt;
-    let (lost, last, costs, comments) = Default::default();
-    let repl = Repl { session, console, signals, making, memory, lost, inputs: 0, last, costs, comments };
+    let (lost, last, costs, comments, work) = Default::default();
+    let repl = Repl { session, console, signals, making, memory, lost, inputs: 0, last, costs, comments, work };
     if terminal { repl.converse() } else { repl.listen() }
 }
 
@@ -177,6 +180,7 @@ impl Repl {
             }
         };
         if flow == Flow::Changed {
+            carve::follow(self);
             let kept = self.memory.accepted(if trimmed.starts_with(':') { trimmed } else { &documented });
             self.remember(kept);
         }

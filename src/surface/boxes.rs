@@ -70,6 +70,11 @@ pub trait Lattice: Sync {
         self.task()
     }
 
+    /// The sample points that are walked: all of them, unless only a part is asked for. It begins at multiples of the sides of a task.
+    fn window(&self) -> Block {
+        Block { from: [0; 3], to: self.counts() }
+    }
+
     /// Writes bounds of each coordinate of the space (`Shape::dimension` of them) over `block`. They must hold every point that the
     /// visitor will evaluate for that block, as it is computed in floating point.
     fn bounds(&self, block: &Block, out: &mut [Interval]);
@@ -121,7 +126,7 @@ pub struct Walk<V> {
     pub counters: Counters,
 }
 
-/// Walks the whole lattice. `visitor` makes the visitor of a task (or of a decided box) from its block. Runs on the current rayon pool;
+/// Walks the lattice, or its window. `visitor` makes the visitor of a task (or of a decided box) from its block. Runs on the current rayon pool;
 /// progress counts sample points.
 ///
 /// # Errors
@@ -136,10 +141,10 @@ where
     walk_on(lattice, shape, visitor, interrupt)
 }
 
-/// Sample points of a lattice: what a walk advances the progress by.
+/// Sample points that are walked: what a walk advances the progress by.
 #[must_use]
 pub fn points(lattice: &impl Lattice) -> u64 {
-    Block { from: [0; 3], to: lattice.counts() }.points()
+    lattice.window().points()
 }
 
 /// The same as a part of a greater task, whose progress was begun already.
@@ -152,7 +157,7 @@ where
     V: Visitor,
     F: Fn(&Block) -> V + Sync,
 {
-    let whole = Block { from: [0; 3], to: lattice.counts() };
+    let whole = lattice.window();
     let mut counters = Counters::default();
     let room = room(lattice, shape, &whole);
     let tasks = gather_tasks(lattice, (shape, room), whole, &mut counters, interrupt)?;

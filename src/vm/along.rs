@@ -16,8 +16,8 @@ const PARTS: usize = 64;
 /// Operations at most: beyond that boxes pay.
 const OPERATIONS: usize = 2_000;
 
-/// Coefficients of one degree, for several rays.
-type Row = [f64; LANES];
+/// A number for each of several rays.
+pub type Row = [f64; LANES];
 
 /// A polynomial in the storage: its first row and its degree.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,16 +159,36 @@ impl Along {
     }
 
     /// Where each ray is first inside, for the distances from -1 to 1 along `start + t change`: -1 where it is inside at once, NaN where it
-    /// never is. At most [`LANES`] rays are read.
-    pub fn first(&self, rows: &mut Rows, rays: impl Iterator<Item = ([f64; 3], [f64; 3])>, out: &mut [f64; LANES]) {
+    /// never is.
+    pub fn first(&self, rows: &mut Rows, start: &[Row; 3], change: &[Row; 3], out: &mut Row) {
         rows.values.resize(self.rows, [0.0; LANES]);
-        for (lane, (start, change)) in rays.take(LANES).enumerate() {
-            for axis in 0..3 {
-                rows.values[2 * axis][lane] = start[axis];
-                rows.values[2 * axis + 1][lane] = change[axis];
-            }
+        for axis in 0..3 {
+            (rows.values[2 * axis], rows.values[2 * axis + 1]) = (start[axis], change[axis]);
         }
         solve(self, rows, out);
+    }
+
+    /// The first place inside of an object of one part, if it was found on all rays.
+    #[inline(always)]
+    fn first_of_one(&self, rows: &[Row], out: &mut Row) -> bool {
+        let ([Part { kind, vanishes }], [Token::Part(_)]) = (&self.parts[..], &self.tokens[..]) else { return false };
+        let at = |poly: Poly, t: &Row| polynomial::value(&rows[poly.row..=poly.row + poly.degree], t);
+        let parts = |t: &Row| {
+            let a = kind.a.map_or([0.0; LANES], |a| at(a, t));
+            (a, kind.b.map_or(([0.0; LANES], [0.0; LANES]), |(b, q)| (at(b, t), at(q, t))))
+        };
+        let mut is_whole = polynomial::first(&rows[vanishes.row..=vanishes.row + vanishes.degree], -1.0, 1.0, out);
+        let (near, (factor, under)) = parts(&[-1.0; LANES]);
+        let (a, (b, _)) = parts(out);
+        for lane in 0..LANES {
+            let begins_inside = near[lane] + factor[lane] * under[lane].max(0.0).sqrt() >= 0.0;
+            // Where `a - b sqrt(q)` vanishes, `a` and `b` have the same sign.
+            let is_missing = out[lane] == f64::INFINITY;
+            is_whole &= begins_inside | is_missing | kind.b.is_none() | (a[lane] * b[lane] <= 0.0);
+            let place = if is_missing { f64::NAN } else { out[lane] };
+            out[lane] = if begins_inside { -1.0 } else { place };
+        }
+        is_whole
     }
 
     /// 1 where the object is inside, -1 elsewhere.
@@ -211,6 +231,9 @@ impl Along {
 #[cfg_attr(not(debug_assertions), multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2")))]
 fn solve(along: &Along, rows: &mut Rows, out: &mut Row) {
     along.steps.iter().for_each(|step| step.run(&mut rows.values));
+    if along.first_of_one(&rows.values, out) {
+        return;
+    }
     rows.roots.clear();
     for Part { vanishes, .. } in &along.parts {
         let mut found = [[0.0; LANES]; MOST];

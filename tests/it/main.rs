@@ -3,6 +3,7 @@
 mod agreement;
 mod asked;
 mod builtins;
+mod carving;
 mod cli;
 mod conformance;
 mod crash;

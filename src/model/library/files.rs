@@ -28,6 +28,7 @@ pub static FILES: &[(&str, &str)] = files![
     "operations/deformations.geo",
     "operations/patterns.geo",
     "operations/products.geo",
+    "operations/carving.geo",
     "operations/time.geo",
     "operations/textures.geo",
     "relations/relations.geo",

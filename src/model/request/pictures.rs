@@ -238,7 +238,10 @@ fn too_large(error: &SheetError) -> Diagnostic {
 }
 
 /// The size of a picture, or of each picture of a sheet.
-fn size(picture: &PictureOptions, subject: &Subject, shop: &Workshop<'_>) -> Result<[usize; 2], Diagnostic> {
+///
+/// # Errors
+/// A size out of bounds.
+pub(super) fn size(picture: &PictureOptions, subject: &Subject, shop: &Workshop<'_>) -> Result<[usize; 2], Diagnostic> {
     let counts = [&subject.columns, &subject.rows].map(|s| s.as_ref().map_or(1, |s| s.values.len()));
     let in_sheet = usize::from(counts != [1, 1]);
     let size = match (picture.size, subject.bounds().as_slice()) {

@@ -66,7 +66,8 @@ fn fitted(sides: [f64; 2], within: [usize; 2]) -> [usize; 2] {
 }
 
 /// The picture made smaller until it fits, each pixel the mean of those that it covers.
-fn shrunk(image: Image, within: [usize; 2]) -> Image {
+#[must_use]
+pub fn shrunk(image: Image, within: [usize; 2]) -> Image {
     if image.width <= within[0] && image.height <= within[1] {
         return image;
     }

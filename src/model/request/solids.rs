@@ -93,6 +93,12 @@ impl<'a> Solid<'a> {
         Ok(Self { subject, parts, space, seen, camera, style, telling, ground, missing, axes: picture.axes })
     }
 
+    /// What stays the same while one object is worked on: its colour, where it is, the camera, and how it is drawn.
+    pub fn stand(&self) -> Option<(Paint, Space, Camera, Style)> {
+        let [part] = &self.parts[..] else { return None };
+        Some((part.paint.clone(), self.seen, self.camera, self.style))
+    }
+
     /// The picture at a place.
     ///
     /// # Errors

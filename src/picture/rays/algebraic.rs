@@ -2,14 +2,15 @@
 
 use rayon::prelude::*;
 
-use super::{Aim, Caster, Frustum, Hits, Ray, Scene, Tile, Tiles, search_on};
+use super::lanes::{Lanes, aim, normals};
+use super::{Aim, Caster, Frustum, Hit, Hits, Scene, Space, Tile, Tiles, search_on};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::Interval;
 use crate::surface::boxes::{Block, Lattice};
 use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::along::{Along, LANES, Rows};
 use crate::vm::interval::LANES as BOXES;
-use crate::vm::{Boxes, Precision, Shape};
+use crate::vm::{Boxes, Precision, Program, Shape};
 
 /// Boxes behind one another that a tile is looked at by.
 const SLICES: usize = 4;
@@ -19,6 +20,9 @@ const SLICES: usize = 4;
 struct Scratch {
     rows: Rows,
     boxes: Boxes,
+    lanes: Lanes,
+    looking: Vec<usize>,
+    found: Found,
 }
 
 /// Casts the rays that are wanted, as a part of a task whose progress was begun already: by roots where the object is a set expression of
@@ -85,36 +89,76 @@ impl<T, F: Fn(Tile<'_>) -> T> Caster<'_, T, F> {
     /// The hits of all rays of the task, handed over; how many rays were looked along.
     fn by_roots(&mut self, along: &Along, sampler: &mut Sampler, scratch: &mut Scratch, block: &Block) -> u64 {
         let live = self.live(block, &mut scratch.boxes);
-        let nothing = Hits { places: Vec::new(), hits: Vec::new() };
         if !live.contains(&true) {
-            self.hand_over(&nothing);
+            self.hand_over(&Hits { places: Vec::new(), hits: Vec::new() });
             return 0;
         }
-        self.prepare();
-        let tiles = self.tiles.iter().zip(live).filter(|(_, live)| *live).flat_map(|(rays, _)| rays.iter().copied());
-        let looking: Vec<usize> = tiles.filter(|&k| self.rays[k].enter < self.rays[k].leave).collect();
-        let mut found = Vec::new();
-        for rays in looking.chunks(LANES) {
+        self.place();
+        self.hits.resize(self.places.len(), None);
+        self.look_towards(&live, &mut scratch.looking);
+        scratch.found.clear();
+        for rays in scratch.looking.chunks(LANES) {
+            let mut places = [[0.0; LANES]; 2];
+            for lane in 0..LANES {
+                let place = self.places[rays[lane.min(rays.len() - 1)]];
+                (places[0][lane], places[1][lane]) = (place[0], place[1]);
+            }
+            aim(&self.frustum.scene, &places, &mut scratch.lanes);
+            let (start, change) = scratch.lanes.through();
             let mut first = [f64::NAN; LANES];
-            along.first(&mut scratch.rows, rays.iter().map(|&ray| self.middle(ray)), &mut first);
-            for (&ray, t) in rays.iter().zip(first) {
-                let Ray { enter, leave, .. } = self.rays[ray];
-                if t <= -1.0 {
-                    self.hits[ray] = Some(self.rays[ray].cap());
-                } else if t < 1.0 {
-                    found.push((ray, 0.5 * (enter + leave) + t * (0.5 * (leave - enter))));
+            along.first(&mut scratch.rows, &start, &change, &mut first);
+            for (lane, &ray) in rays.iter().enumerate().filter(|&(lane, _)| scratch.lanes.half[lane] > 0.0) {
+                if first[lane] <= -1.0 {
+                    self.hits[ray] = Some(self.frustum.ray(self.places[ray]).cap());
+                } else if first[lane] < 1.0 {
+                    scratch.found.push(ray, lane, first[lane], &scratch.lanes, &self.frustum.scene.space);
                 }
             }
         }
-        if !found.is_empty() {
-            let program = self.shape.program.clone();
-            self.normals(&found, &program, sampler);
+        let slopes = scratch.found.slopes(&self.shape.program, sampler, self.aim.normals);
+        if self.note(&scratch.found, &slopes) {
+            self.rays.extend(self.places.iter().map(|&place| self.frustum.ray(place)));
+            self.mend();
         }
-        self.mend();
         let is_empty = self.hits.iter().all(Option::is_none);
         let (places, hits) = (std::mem::take(&mut self.places), std::mem::take(&mut self.hits));
-        self.hand_over(&if is_empty { nothing } else { Hits { places, hits } });
-        looking.len() as u64
+        self.hand_over(&if is_empty { Hits { places: Vec::new(), hits: Vec::new() } } else { Hits { places, hits } });
+        scratch.looking.len() as u64
+    }
+
+    /// Lists the rays through live tiles, tile by tile of a row.
+    fn look_towards(&self, live: &[bool], looking: &mut Vec<usize>) {
+        let tile = self.frustum.scene.tile;
+        let across = self.size[0].div_ceil(tile);
+        // A corner at the right or the lower edge belongs to the last cell before it.
+        let tiles = |k: usize| (0..=self.size[k]).map(|cell| cell.min(self.size[k] - 1) / tile).collect::<Vec<_>>();
+        let (columns, rows) = (tiles(0), tiles(1));
+        let is_live = |&ray: &usize| {
+            let cell = |k: usize| self.places[ray][k] as usize - self.from[k];
+            live[rows[cell(1)] * across + columns[cell(0)]]
+        };
+        looking.clear();
+        looking.extend((0..self.places.len()).filter(is_live));
+    }
+
+    /// Makes hits of what was found; whether some of their normals are undefined.
+    fn note(&mut self, found: &Found, slopes: &[Vec<f64>; 3]) -> bool {
+        let mut lacks = false;
+        for (chunk, rays) in found.rays.chunks(LANES).enumerate() {
+            let range = chunk * LANES..chunk * LANES + rays.len();
+            let (mut gradients, mut directions) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
+            for k in 0..3 {
+                gradients[k][..rays.len()].copy_from_slice(&slopes[k][range.clone()]);
+                directions[k][..rays.len()].copy_from_slice(&found.directions[k][range.clone()]);
+            }
+            normals(&mut gradients, &directions);
+            for (lane, &ray) in rays.iter().enumerate() {
+                let normal = [gradients[0][lane], gradients[1][lane], gradients[2][lane]];
+                lacks |= normal[0].is_nan();
+                self.hits[ray] = Some(Hit { depth: found.depths[range.start + lane], normal, cap: false });
+            }
+        }
+        lacks
     }
 
     /// Which of the smallest tiles may see the object, row by row: for each, boxes behind one another over the whole depth.
@@ -148,12 +192,47 @@ impl<T, F: Fn(Tile<'_>) -> T> Caster<'_, T, F> {
         }
         live
     }
+}
 
-    /// The middle of a ray's part in the space, and half of that part.
-    fn middle(&self, ray: usize) -> ([f64; 3], [f64; 3]) {
-        let ray = &self.rays[ray];
-        let (middle, half) = (0.5 * (ray.enter + ray.leave), 0.5 * (ray.leave - ray.enter));
-        let start = std::array::from_fn(|k| ray.start[k] + middle * ray.direction[k]);
-        (start, ray.direction.map(|d| half * d))
+/// The hits of a task before they have normals.
+#[derive(Default)]
+struct Found {
+    rays: Vec<usize>,
+    depths: Vec<f64>,
+    points: [Vec<f64>; 3],
+    directions: [Vec<f64>; 3],
+}
+
+impl Found {
+    fn clear(&mut self) {
+        self.rays.clear();
+        self.depths.clear();
+        self.points.iter_mut().chain(&mut self.directions).for_each(Vec::clear);
+    }
+
+    /// Adds a ray that hits at a part of its way through the space, from -1 to 1.
+    fn push(&mut self, ray: usize, lane: usize, part: f64, lanes: &Lanes, space: &Space) {
+        let depth = lanes.middle[lane] + part * lanes.half[lane];
+        self.rays.push(ray);
+        self.depths.push(depth);
+        for k in 0..3 {
+            let (start, direction) = (lanes.start[k][lane], lanes.direction[k][lane]);
+            self.points[k].push((start + depth * direction).clamp(space.lo[k], space.hi[k]));
+            self.directions[k].push(direction);
+        }
+    }
+
+    /// The gradients of a program where the rays hit, or, if none are wanted, the rays' directions.
+    fn slopes(&self, program: &Program, sampler: &mut Sampler, wanted: bool) -> [Vec<f64>; 3] {
+        if !wanted {
+            return self.directions.clone();
+        }
+        let count = self.rays.len();
+        let (mut values, mut slopes) = (vec![0.0; count], [0; 3].map(|_| vec![0.0; count]));
+        if count > 0 {
+            let ([x, y, z], [sx, sy, sz]) = (&self.points, &mut slopes);
+            sampler.slopes(program, &[x, y, z], &mut values, &mut [sx, sy, sz]);
+        }
+        slopes
     }
 }
