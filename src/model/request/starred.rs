@@ -200,42 +200,39 @@ pub(super) fn measured(
     if shape.precision == Precision::Single {
         return Ok(None);
     }
+    let Ok(placed) = placed(subject, (subject.node, shape, grid), way, (graph, limits, interrupt))? else {
+        return Ok(None);
+    };
+    let gauge = &placed.star.gauge;
     let tell = |to: &mut Digest| {
         shape.tell(to);
-        to.shown(&(grid, sharp, way, &subject.centre, limits.memory_bytes, limits.search_operations));
+        to.shown(&("rays", grid, sharp, &gauge.centre, limits.memory_bytes, limits.search_operations));
     };
-    let make = || -> Result<Option<(Dimension, Report, String)>, Diagnostic> {
-        let Ok(placed) = placed(subject, (subject.node, shape, grid), way, (graph, limits, interrupt))? else {
-            return Ok(None);
-        };
-        let gauge = &placed.star.gauge;
-        let found = if subject.axes.len() == 3 {
+    let make = || -> Result<Option<(Dimension, Report)>, Diagnostic> {
+        if subject.axes.len() == 3 {
             let found = solid(gauge, shape, grid, sharp, limits, interrupt).map_err(|error| unmeasured(&error))?;
-            found.map(|found| {
+            return Ok(found.map(|found| {
                 let (triangles, report) = (found.topology.triangles, found.report.clone());
                 (Dimension::Solid(Box::new(found), triangles), report)
-            })
-        } else {
-            let found = figure(gauge, shape, grid, sharp, interrupt).map_err(|error| unmeasured(&error.into()))?;
-            found.map(|found| {
-                let report = found.report.clone();
-                (Dimension::Plane(Box::new(found)), report)
-            })
-        };
-        Ok(found.map(|(found, report)| {
-            let line = format!("star, {} points on rays from {}", report.samples, point(&gauge.centre));
-            (found, report, line)
+            }));
+        }
+        let found = figure(gauge, shape, grid, sharp, interrupt).map_err(|error| unmeasured(&error.into()))?;
+        Ok(found.map(|found| {
+            let report = found.report.clone();
+            (Dimension::Plane(Box::new(found)), report)
         }))
     };
-    let bytes = |_: &Option<(Dimension, Report, String)>| size_of::<Measures>();
-    let found = interrupt.whole("star measures", tell, bytes, make)?;
+    let found = interrupt.whole("measures", tell, |_| size_of::<Measures>(), make)?;
     if found.is_none() && way.route == Route::Star {
         let title = format!("`{}` is not measured along rays: the space cuts it, or it has creases", subject.name);
         return Err(Diagnostic::error("not-measured", title)
             .category(Category::Result)
             .help("leave the route to `auto`: cells measure it"));
     }
-    Ok(found)
+    Ok(found.map(|(found, report)| {
+        let line = format!("star, {} points on rays from {}", report.samples, point(&gauge.centre));
+        (found, report, line)
+    }))
 }
 
 /// The message about an object for which the star route was asked and that is none.
