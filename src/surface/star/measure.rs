@@ -368,7 +368,7 @@ pub fn solid(
         let [least, most] = reaches[d];
         least.value - least.error <= lo || most.value + most.error >= hi
     };
-    if found.error > wanted(sharp) || (0..3).any(is_cut) {
+    if found.error.is_nan() || found.error > wanted(sharp) || (0..3).any(is_cut) {
         return Ok(None);
     }
     // About as many vertices as cells would give.
@@ -418,7 +418,7 @@ pub fn figure(
     let ranges: Vec<[f64; 2]> = (0..2).map(|d| [grid.lo[d], grid.hi[d]]).collect();
     let cells = grid.cells.into_iter().max().unwrap_or(1);
     let Some(found) = enclosed::<2>(gauge, &ranges, cells, wanted(sharp), interrupt)? else { return Ok(None) };
-    if found.error > wanted(sharp) {
+    if found.error.is_nan() || found.error > wanted(sharp) {
         return Ok(None);
     }
     let space = Space { ranges };
