@@ -282,6 +282,10 @@ const POLYNOMIAL: &[&str] = &[
     "(1 - x1 & 1 + x1 & 1 - x2 & 1 + x2 & 1 - x3 & 1 + x3) & ~(1.3 - x1**2 - x2**2 - x3**2)",
     "1 - x1**4 - x2**4 - x3**4",
     "x3 - x1**3 + x1",
+    "x1*x2*x3",
+    "1 - (SQRT(x1**2 + x2**2) - 0.4)**2 - x3**2",
+    "0.15 - (SQRT(x1**2 + x2**2) - 0.2)**2 - x3**2",
+    "x1*x2*x3*(x1 - x3)",
 ];
 
 /// No ray's depth is apart by more than 1e-6 from that of the search, but where a ray merely touches the object.
