@@ -1,13 +1,24 @@
 //! What an edit of a star solid costs against evaluating it anew, for ten to a hundred thousand half-spaces, and how far ten thousand
-//! random edits drift. Times are of one thread's processor.
+//! random edits drift; the same for folds of other operands. Times are of one thread's processor.
 
 #![allow(clippy::print_stdout)]
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use yont::field::folded::How;
+use yont::field::{Coordinate, Graph, NodeId};
 use yont::interrupt::Interrupt;
+use yont::limits::Limits;
 use yont::number::star::{AXES, Exponent, Polyhedron, Row, StarSolid};
+use yont::number::{Algebra, Binary, Unary};
+use yont::reuse::{Digest, Reuse};
 use yont::surface::edit::{Edit, Sculpture};
+use yont::surface::star::Gauge;
+use yont::surface::star::folded::{Operand, Parts};
+use yont::surface::star::guide::Guide;
+use yont::surface::star::mesh::{Space, over};
+use yont::vm::{Demand, Program};
 
 struct Random(u64);
 
@@ -67,6 +78,76 @@ fn median(mut times: Vec<Duration>) -> Duration {
     times[times.len() / 2]
 }
 
+/// A fold of ellipsoids' gauges.
+fn fold(random: &mut Random, how: How, count: usize) -> Parts {
+    let program = |graph: &Graph, node: NodeId, inputs: &[Coordinate]| {
+        Program::compile(graph, node, inputs, Demand::Value, &Limits::default()).expect("a program")
+    };
+    let inputs: Vec<Coordinate> = (1..=4).map(Coordinate).collect();
+    let mut around = Graph::new();
+    let whole = around.coordinate(inputs[3]);
+    let operands = (0..count).map(|_| ellipsoid(random, &inputs[..3])).collect();
+    Parts { how, operands, around: Arc::new(program(&around, whole, &inputs)) }
+}
+
+fn ellipsoid(random: &mut Random, inputs: &[Coordinate]) -> Operand {
+    let mut graph = Graph::new();
+    let squares: Vec<NodeId> = inputs
+        .iter()
+        .map(|c| {
+            let (x, by) = (graph.coordinate(*c), graph.constant(0.7 + 0.7 * random.unit()));
+            let scaled = graph.binary(Binary::Mul, by, x);
+            graph.unary(Unary::Powi(2), scaled)
+        })
+        .collect();
+    let sum = graph.binary(Binary::Add, squares[0], squares[1]);
+    let sum = graph.binary(Binary::Add, sum, squares[2]);
+    let root = graph.unary(Unary::Sqrt, sum);
+    let program = Program::compile(&graph, root, inputs, Demand::Value, &Limits::default()).expect("a program");
+    let mut digest = Digest::of("operand");
+    program.tell(&[], &mut digest);
+    Operand { program: Arc::new(program), minus: false, key: digest.key() }
+}
+
+/// Edits of folds: one operand of so many is another one.
+fn folds(vertices: usize, random: &mut Random) {
+    let guide = Guide { directions: (0..vertices).map(|_| random.direction()).collect(), triangles: Vec::new() };
+    let space = Space { ranges: vec![[-1e9, 1e9]; 3] };
+    println!("{:>8} {:>12} {:>12} {:>12} {:>9}", "N", "fold", "anew", "edit", "ratio");
+    for how in [How::Least, How::Sum, How::Norm(8.0), How::Norm(-8.0)] {
+        for n in [10, 100, 1_000, 10_000] {
+            let interrupt = Interrupt::default().keeping(Reuse::within(1 << 31));
+            let mut parts = fold(random, how, n);
+            let time = |parts: &Parts| {
+                let gauge = Gauge {
+                    centre: vec![0.0; 3],
+                    gauge: parts.operands[0].program.clone(),
+                    positive: None,
+                    single: None,
+                    finite: None,
+                    fixed: Vec::new(),
+                    parts: Some(Arc::new(parts.clone())),
+                };
+                let begun = Instant::now();
+                over(&gauge, &space, &guide, false, &interrupt).expect("a mesh");
+                begun.elapsed().as_secs_f64() * 1e9 / vertices as f64
+            };
+            let anew = time(&parts);
+            let mut edits: Vec<f64> = (0..15)
+                .map(|_| {
+                    let place = random.below(n);
+                    parts.operands[place] = ellipsoid(random, &[1, 2, 3].map(Coordinate));
+                    time(&parts)
+                })
+                .collect();
+            edits.sort_by(f64::total_cmp);
+            let edit = edits[edits.len() / 2];
+            println!("{n:>8} {:>12} {anew:>9.0} ns {edit:>9.0} ns {:>9.1}", format!("{how:?}"), anew / edit);
+            assert_eq!(interrupt.costs().kept.edits, 15);
+        }
+    }
+}
+
 fn main() {
     let vertices: usize = std::env::var("VERTICES").ok().and_then(|v| v.parse().ok()).unwrap_or(20_000);
     let (interrupt, mut random) = (Interrupt::default(), Random(1));
@@ -106,6 +187,7 @@ fn main() {
             );
         }
     }
+    folds(vertices, &mut random);
     for p in [0.5, 2.0, 32.0, 1000.0, f64::INFINITY] {
         for n in [10, 1_000] {
             let mut sculpture =

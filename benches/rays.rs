@@ -99,8 +99,15 @@ fn meshes() {
             let mut rays = Rays::new(&graph, &AXES, &[0.0; 3], 1_000_000);
             let star = rays.star(node).expect("a star");
             let of = |node| Arc::new(program(rays.graph(), node, Demand::Value));
-            let gauge =
-                Gauge { centre: vec![0.0; 3], gauge: of(star.gauge), positive: None, finite: None, fixed: Vec::new() };
+            let gauge = Gauge {
+                centre: vec![0.0; 3],
+                gauge: of(star.gauge),
+                positive: None,
+                single: None,
+                finite: None,
+                fixed: Vec::new(),
+                parts: None,
+            };
             let interrupt = Interrupt::default();
             let proof = prove(&gauge, &interrupt).expect("not stopped").expect("a proof");
             let reach = 1.05 * 3.0_f64.sqrt() / proof.least.max(0.3);

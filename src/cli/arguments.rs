@@ -15,7 +15,7 @@ use super::values::{
     Assignment, Camera, Cutting, Extent, Ground, Section, Size, Slices, angles, assignment, background, camera, cut,
     extent, positive, section, size, slices,
 };
-use super::way::Way;
+use super::way::{Along, Way};
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -503,6 +503,9 @@ pub struct Measure {
     /// How fine
     #[command(flatten)]
     pub fineness: Fineness,
+    /// Which way
+    #[command(flatten)]
+    pub along: Along,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

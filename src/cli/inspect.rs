@@ -13,6 +13,7 @@ use super::console::Console;
 use super::engine::Signals;
 use super::make::view;
 use super::status::Status;
+use super::way::Way;
 use super::{config, session};
 
 /// `yont info FILE`.
@@ -69,7 +70,8 @@ fn paths(console: &Console, json: bool) -> Result<Status, Status> {
 pub fn measure(console: &Console, signals: &Signals, options: &arguments::Measure) -> Result<Status, Status> {
     let (mut session, _) = session::required(console, signals, &options.program)?;
     let (subject, fineness) = (options.subject.clone(), options.fineness.clone());
-    let making = Making { subject, fineness, ..Making::default() };
+    let way = Way { along: options.along.clone(), ..Way::default() };
+    let making = Making { subject, fineness, way, ..Making::default() };
     measure_one(console, &mut session, &making, options.json)
 }
 

@@ -33,9 +33,9 @@ pub fn view(making: &Making, default: &View) -> View {
             .collect(),
         cells,
         precision: making.fineness.precision.unwrap_or_default().into(),
-        route: making.way.route.as_deref().and_then(Route::from_name).unwrap_or(default.route),
+        route: making.way.along.route.as_deref().and_then(Route::from_name).unwrap_or(default.route),
         guide: making.way.guide.clone().unwrap_or_else(|| default.guide.clone()),
-        centre: making.way.center.as_ref().map(|centre| centre.0.clone()),
+        centre: making.way.along.center.as_ref().map(|centre| centre.0.clone()),
         sharp: making.fineness.sharp.map_or(default.sharp, Switch::is_on),
     }
 }

@@ -4,6 +4,7 @@ pub mod build;
 pub mod derivative;
 pub mod expand;
 pub mod facts;
+pub mod folded;
 pub mod graph;
 pub mod rays;
 pub mod region;

@@ -5,11 +5,14 @@ use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::render::excerpt;
+use crate::field::folded::{Folded, folded};
 use crate::field::rays::{Broken, RayForm, Rays, Why, centres};
 use crate::field::{Coordinate, Graph, NodeId};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::limits::Limits;
 use crate::number::{Algebra, Binary};
+use crate::reuse::Digest;
+use crate::surface::star::folded::{Operand, Parts};
 use crate::surface::star::{Doubt, Fault, Gauge, prove};
 use crate::vm::{Demand, Program};
 
@@ -19,6 +22,8 @@ use super::session::Session;
 
 /// Forms of a tree that are written out.
 const SHOWN: usize = 4;
+/// Operands of a fold below which an evaluation anew is as good.
+const OPERANDS: usize = 8;
 /// Bytes of an equation that are shown.
 const LONGEST: usize = 400;
 
@@ -76,7 +81,7 @@ impl Reason {
         match self {
             Self::Doubt(Doubt { fault: Fault::Endless, .. }) => 0,
             Self::Doubt(Doubt { fault: Fault::Undecided, .. }) => 1,
-            Self::Doubt(Doubt { fault: Fault::Outside, .. }) => 2,
+            Self::Doubt(Doubt { fault: Fault::Several | Fault::Outside, .. }) => 2,
             Self::Doubt(Doubt { fault: Fault::Undefined, .. }) => 3,
             Self::Broken(Broken { why: Why::Roots | Why::Terms, .. }) => 4,
             Self::Broken(_) => 5,
@@ -152,11 +157,14 @@ fn about(
         centre: centre.to_vec(),
         gauge,
         positive: found.positive.and_then(program),
+        single: found.single.and_then(program),
         finite: found.finite.and_then(program),
         fixed: question.fixed.iter().map(|f| f.1).collect(),
+        parts: parts(&rays, found.gauge, &inputs, limits, interrupt),
     });
     let complete = |gauge: &Gauge| {
-        gauge.positive.is_some() == found.positive.is_some() && gauge.finite.is_some() == found.finite.is_some()
+        let pairs = [(&gauge.positive, found.positive), (&gauge.single, found.single), (&gauge.finite, found.finite)];
+        pairs.into_iter().all(|(program, node)| program.is_some() == node.is_some())
     };
     let Some(gauge) = gauge.filter(complete) else {
         let broken = Broken { node: question.node, why: Why::Size };
@@ -174,6 +182,28 @@ fn about(
             Err(refused(&rays, Reason::Doubt(doubt), form.as_ref()))
         }
     })
+}
+
+/// The gauge as a fold of many operands, where it is worth while to keep them from one mesh to the next.
+fn parts(
+    rays: &Rays<'_>,
+    gauge: NodeId,
+    inputs: &[Coordinate],
+    limits: &Limits,
+    interrupt: &Interrupt,
+) -> Option<Arc<Parts>> {
+    interrupt.reuse()?;
+    let Folded { how, operands, around: (graph, root), whole } = folded(rays.graph(), gauge, OPERANDS)?;
+    let operand = |(graph, node, minus): (Graph, NodeId, bool)| {
+        let program = Program::compile(&graph, node, inputs, Demand::Value, limits).ok()?;
+        let mut digest = Digest::of("operand");
+        program.tell(&[], &mut digest);
+        Some(Operand { program: Arc::new(program), minus, key: digest.key() })
+    };
+    let operands = operands.into_iter().map(operand).collect::<Option<_>>()?;
+    let inputs: Vec<Coordinate> = inputs.iter().copied().chain([whole]).collect();
+    let around = Arc::new(Program::compile(&graph, root, &inputs, Demand::Value, limits).ok()?);
+    Some(Arc::new(Parts { how, operands, around }))
 }
 
 /// The forms, the gauge and the boundary of a star as equations.
@@ -399,6 +429,7 @@ impl Refusal {
                     Fault::Outside => {
                         format!("the centre {about} lies outside it or on its boundary, seen towards {towards}")
                     }
+                    Fault::Several => format!("from {about} towards {towards} a ray may leave it more than once"),
                     Fault::Undefined => format!("from {about} towards {towards} it is undefined or infinite"),
                     Fault::Undecided => format!("about {about} nothing is proved of the rays near {towards}"),
                 }

@@ -177,7 +177,7 @@ fn first_by_signs<const N: usize, const L: usize>(c: [&[f64; L]; N], lo: f64, hi
         let mut is_left = false;
         for i in 0..L {
             // Rounding may have hidden a root at the end of the step before.
-            let jumped = rows[0][i] * low[i] > 0.0;
+            let jumped = (rows[0][i] < 0.0) != (low[i] > 0.0);
             let (is_open, to) = (open[i] > 0.0, from[i] + step[i]);
             let meets = is_open & (jumped | (count[i] == 1.0));
             let passes = is_open & !jumped & (count[i] == 0.0);
@@ -307,4 +307,58 @@ fn between<const L: usize>(c: &[[f64; L]], sign: &[f64; L], mut lo: [f64; L], mu
         }
     }
     t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers from 0 to 1 without a pattern.
+    fn scattered() -> impl FnMut() -> f64 {
+        let mut state = 0x2545_f491_4f6c_dd1d_u64;
+        move || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        }
+    }
+
+    #[test]
+    fn the_first_root_is_that_of_the_factors() {
+        let mut next = scattered();
+        let (mut found, mut left) = (0, 0);
+        for case in 0..20_000 {
+            let degree = 3 + case % 2;
+            // Two of the roots near each other, in every second polynomial.
+            let mut zeros: Vec<f64> = (0..degree).map(|_| 3.0 * next() - 1.5).collect();
+            if case % 4 < 2 {
+                zeros[1] = zeros[0] + 10.0_f64.powf(-5.0 * next());
+            }
+            // Some at places where steps of a search end.
+            if case % 8 < 4 {
+                zeros[0] = [-0.5, 0.0, 0.25][case % 3];
+            }
+            let mut c = vec![[1.0; 1]];
+            for zero in &zeros {
+                c.push([0.0]);
+                for k in (0..c.len()).rev() {
+                    c[k][0] = if k > 0 { c[k - 1][0] } else { 0.0 } - zero * c[k][0];
+                }
+            }
+            let expected = zeros.iter().copied().filter(|z| z.abs() < 1.0).fold(f64::INFINITY, f64::min);
+            let mut out = [0.0];
+            if first(&c, -1.0, 1.0, &mut out) {
+                found += 1;
+                assert!((out[0] - expected).abs() < 1e-7 || out[0] == expected, "{zeros:?}: {} {expected}", out[0]);
+            } else {
+                left += 1;
+            }
+            let mut all = [[0.0]; MOST];
+            let count = roots(&c, -1.0, 1.0, &mut all);
+            let least = all[..count].iter().fold(f64::INFINITY, |least, root| least.min(root[0]));
+            assert!((least - expected).abs() < 1e-7 || least == expected, "{zeros:?}: {least} {expected}");
+        }
+        assert!(left < found / 4, "{left} of {found}");
+    }
 }

@@ -424,9 +424,9 @@ fn settings(making: &Making) -> Vec<(&'static str, String)> {
     let switch = |switch: cli::arguments::Switch| if switch.is_on() { "on" } else { "off" }.to_owned();
     say("precision", making.fineness.precision.map(|numbers| format!("{numbers:?}").to_lowercase()));
     say("sharp", making.fineness.sharp.map(switch));
-    say("route", making.way.route.clone());
+    say("route", making.way.along.route.clone());
     say("guide", making.way.guide.as_ref().map(ToString::to_string));
-    say("center", making.way.center.as_ref().map(ToString::to_string));
+    say("center", making.way.along.center.as_ref().map(ToString::to_string));
     say("size", making.look.size.map(|size| format!("{}x{}", size.width, size.height)));
     say("view", making.look.view.clone());
     say("camera", making.look.camera.as_ref().map(ToString::to_string));

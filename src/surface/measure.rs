@@ -254,7 +254,7 @@ fn lost(mesh: &Mesh, own: usize, crease: usize) -> [f64; 2] {
 }
 
 /// How far the object reaches: between points of it and what intervals rule out. The mesh does not tell: its vertices are kept apart.
-fn bounds(
+pub(super) fn bounds(
     shape: &Shape,
     grid: &Grid,
     limits: &Limits,

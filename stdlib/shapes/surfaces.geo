@@ -15,7 +15,8 @@ pob_heart = x1**2*x3**3 + 9/80*x2**2*x3**3 - (x1**2 + 9/4*x2**2 + x3**2 - 1)**3;
   Source: Knapp 1998 }
 pob_tanglecube = 5*(x1**2 + x2**2 + x3**2) - x1**4 - x2**4 - x3**4 - 11.8;
 
-{ Barth's sextic with its 65 double points, in the ball of radius 2 w.
+{ Barth's sextic with its 65 double points, in the ball of radius 2 w: the larger side of it. The other one, which the points hold
+  together, is -pob_barth_sextic(w) & 3.9*w**2 - x1**2 - x2**2 - x3**2.
   Example: pob_barth_sextic(1) AT (0, 0, 0) > 0   // 1
   Source: Barth 1996 }
 pob_barth_sextic((real) w) =

@@ -8,6 +8,7 @@ use yont::field::Coordinate;
 use yont::interrupt::Interrupt;
 use yont::limits::Limits;
 use yont::model::Session;
+use yont::model::request::measured::Dimension;
 use yont::model::request::subject::Subject;
 use yont::model::request::{self, Cells, Options, View};
 use yont::model::route::{Question, Star, star};
@@ -178,4 +179,55 @@ fn star_and_cube_routes_agree_on_every_example() {
         }
     }
     assert!(solid >= 20 && plane >= 5, "{solid} solids and {plane} figures");
+}
+
+/// Gamma of a quarter and of three quarters, which the volume of `x^4 + y^4 + z^4 <= 1` has.
+const GAMMA: [f64; 2] = [3.625_609_908_221_908_4, 1.225_416_702_465_177_6];
+
+/// Stars, whether creases are to be shown as they are, the route that measures them, and in closed form volume, surface, a coordinate of the
+/// centre and an entry of the inertia.
+fn closed_forms() -> Vec<(&'static str, bool, &'static str, [f64; 4])> {
+    let pi = std::f64::consts::PI;
+    // An ellipsoid of revolution with half axes 1, 1, 2.
+    let e = 0.75_f64.sqrt();
+    let spheroid = 2.0 * pi * (1.0 + 2.0 / e * e.asin());
+    let quartic = GAMMA[0].powi(3) / 8.0 / (0.75 * GAMMA[1]);
+    vec![
+        ("1 - x1^2 - x2^2 - x3^2", true, "star", [4.0 / 3.0 * pi, 4.0 * pi, 0.0, 8.0 / 15.0 * pi]),
+        (
+            "4 - (x1 - 30)^2 - x2^2 - (x3 + 5)^2",
+            false,
+            "star",
+            [32.0 / 3.0 * pi, 16.0 * pi, 30.0, 32.0 / 3.0 * pi * 8.0 / 5.0],
+        ),
+        ("1 - x1^2 - x2^2 - x3^2/4", true, "star", [8.0 / 3.0 * pi, spheroid, 0.0, 8.0 / 3.0 * pi]),
+        ("1 - x1^4 - x2^4 - x3^4", true, "star", [quartic, f64::NAN, 0.0, f64::NAN]),
+        ("1 - ABS(x1) & 1 - ABS(x2) & 1 - ABS(x3)", true, "star", [8.0, 24.0, 0.0, 16.0 / 3.0]),
+        ("1 - x1 & 1 + x1 & 1 - x2 & 0.3 + x2 & 1 - x3 & 1 + x3", true, "cubes", [5.2, 18.4, 0.0, f64::NAN]),
+        ("1 - x1 & 1 + x1 & 1 - x2 & 0.3 + x2 & 1 - x3 & 1 + x3", false, "star", [5.2, 18.4, 0.0, f64::NAN]),
+        ("1 - x1^2 - x2^2", true, "star", [pi, 2.0 * pi, 0.0, pi / 4.0]),
+        ("1 - x1 & 0.5 + x1 & 1 - x2 & 0.3 + x2", true, "star", [1.95, 5.6, 0.25, 1.95 * 1.69 / 12.0]),
+    ]
+}
+
+#[test]
+fn measures_along_rays_are_the_closed_forms() {
+    for (text, sharp, route, exact) in closed_forms() {
+        let (mut session, _) = loaded("a.geo", &format!("gob_a = {text};"));
+        let view = View { sharp, cells: Cells::Along(64), ..View::default() };
+        let measured = request::measure(&mut session, &view).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+        assert_eq!(measured.route.split(',').next(), Some(route), "{text}");
+        let found = match &measured.of {
+            Dimension::Solid(m, _) => [m.volume, m.area, m.centroid[0], m.inertia[0][0]],
+            Dimension::Plane(f) => [f.area, f.perimeter, f.centroid[0], f.inertia[0][0]],
+            Dimension::Line(_) => panic!("{text} is no line"),
+        };
+        println!("{text}: {}", measured.route);
+        for (found, exact) in found.iter().zip(exact).filter(|(_, exact)| !exact.is_nan()) {
+            println!("    {exact:.12} {:9.1e} {:9.1e}", found.value - exact, found.error);
+            assert!(found.holds(exact), "{text}: {found:?}, not {exact}");
+            let rough = if sharp { 1e-7 } else { 1e-2 };
+            assert!(found.error < rough * exact.abs().max(1.0), "{text}: {found:?} says little");
+        }
+    }
 }

@@ -12,6 +12,7 @@ mod diagnostics;
 mod examples;
 mod export;
 mod field;
+mod folds;
 mod formats;
 mod formula;
 mod hostile;

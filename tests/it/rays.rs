@@ -209,8 +209,10 @@ fn gauge(graph: &Graph, root: NodeId, centre: &[f64]) -> Option<Gauge> {
         centre: centre.to_vec(),
         gauge: program(star.gauge),
         positive: star.positive.map(program),
+        single: star.single.map(program),
         finite: star.finite.map(program),
         fixed: Vec::new(),
+        parts: None,
     };
     prove(&gauge, &Interrupt::default()).expect("nobody stops it").ok()?;
     Some(gauge)

@@ -46,8 +46,10 @@ fn gauge(graph: &Graph, node: NodeId, centre: [f64; 3]) -> Gauge {
         centre: centre.to_vec(),
         gauge: of(star.gauge),
         positive: star.positive.map(of),
+        single: star.single.map(of),
         finite: star.finite.map(of),
         fixed: Vec::new(),
+        parts: None,
     };
     prove(&gauge, &Interrupt::default()).expect("nobody stops it").expect("a proof");
     gauge
@@ -280,6 +282,9 @@ const POLYNOMIAL: &[&str] = &[
     "(1 - x1 & 1 + x1 & 1 - x2 & 1 + x2 & 1 - x3 & 1 + x3) & ~(1.3 - x1**2 - x2**2 - x3**2)",
     "1 - x1**4 - x2**4 - x3**4",
     "x3 - x1**3 + x1",
+    "x1*x2*x3",
+    "1 - (SQRT(x1**2 + x2**2) - 0.4)**2 - x3**2",
+    "0.15 - (SQRT(x1**2 + x2**2) - 0.2)**2 - x3**2",
 ];
 
 /// No ray's depth is apart by more than 1e-6 from that of the search, but where a ray merely touches the object.

@@ -53,6 +53,8 @@ pub struct Rays<'g> {
     forms: FxHashMap<Key, Found>,
     order: Vec<Key>,
     limit: usize,
+    /// What must not be negative for a ray to leave the shape once.
+    single: Vec<NodeId>,
 }
 
 impl<'g> Rays<'g> {
@@ -71,6 +73,7 @@ impl<'g> Rays<'g> {
             forms: FxHashMap::default(),
             order: Vec::new(),
             limit,
+            single: Vec::new(),
         }
     }
 

@@ -13,6 +13,8 @@ pub struct Star {
     pub gauge: NodeId,
     /// What must be positive in every direction for the gauge to be right, if it is no number: that the centre lies inside each part.
     pub positive: Option<NodeId>,
+    /// What must not be negative in any direction for a ray to leave it only once, if anything.
+    pub single: Option<NodeId>,
     /// What must be finite in every direction, if anything besides the gauge.
     pub finite: Option<NodeId>,
     /// The forms that the shape is joined of; one if it is a form by itself.
@@ -28,7 +30,7 @@ impl Rays<'_> {
     /// # Errors
     /// The first part that breaks it.
     pub fn star(&mut self, root: NodeId) -> Result<Star, Broken> {
-        let mut star = Star { gauge: root, positive: None, finite: None, leaves: Vec::new() };
+        let mut star = Star { gauge: root, positive: None, single: None, finite: None, leaves: Vec::new() };
         let mut positive = Vec::new();
         let mut open = vec![Step::Visit((root, 0), false)];
         let mut done: Vec<Gauge> = Vec::new();
@@ -50,6 +52,8 @@ impl Rays<'_> {
             self.alone(&mut star);
         }
         star.positive = distinct(positive).into_iter().reduce(|a, b| self.least(a, b));
+        let single = distinct(std::mem::take(&mut self.single));
+        star.single = single.into_iter().reduce(|a, b| self.least(a, b));
         let magnitudes: Vec<NodeId> =
             distinct(self.sums.lost.clone()).iter().map(|d| self.sums.graph.unary(Unary::Abs, *d)).collect();
         star.finite = magnitudes.into_iter().reduce(|a, b| self.sums.graph.binary(Binary::Add, a, b));
@@ -165,9 +169,12 @@ impl Rays<'_> {
             }
             [low, middle, high] if evenly(form) => {
                 self.must_be_positive(low.coefficient, positive);
-                // With a positive first and no positive last coefficient there is one sign change at most, whatever the middle one is.
+                // With a positive first and no positive last coefficient there is one sign change at most, whatever the middle one is. Where
+                // the last one is zero, what is left is a form of two terms, whose gauge the same formula gives.
                 let outward = self.opposite(high.coefficient);
-                self.must_not_be_negative(outward, positive);
+                if self.sums.graph.number(outward).is_none_or(|value| value.is_nan() || value < 0.0) {
+                    self.single.push(outward);
+                }
                 let ratio = self.quadratic([low.coefficient, middle.coefficient, outward]);
                 self.root(ratio, middle.degree.value - low.degree.value)
             }
@@ -203,12 +210,7 @@ impl Rays<'_> {
         }
     }
 
-    /// Asks for it in the same words, which a zero does not pass: it would have one term less.
-    fn must_not_be_negative(&mut self, node: NodeId, positive: &mut Vec<NodeId>) {
-        self.must_be_positive(node, positive);
-    }
-
-    /// `1/t` where `a + b t - c t^2` vanishes, for positive a and c: `(sqrt(b^2 + 4 a c) - b) / 2 a`, without cancellation.
+    /// `1/t` where `a + b t - c t^2` vanishes, for positive a and c that is not negative: `(sqrt(b^2 + 4 a c) - b) / 2 a`, without cancellation.
     fn quadratic(&mut self, [a, b, c]: [NodeId; 3]) -> NodeId {
         let square = self.sums.power(b, 2);
         let four = self.sums.constant(4.0);

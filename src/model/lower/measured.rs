@@ -18,7 +18,7 @@ use crate::vm::{Demand, Program, Shape};
 use super::super::errors;
 use super::super::request::measured::Dimension;
 use super::super::request::subject::{Axis, Subject};
-use super::super::request::{Cells, dimension};
+use super::super::request::{Cells, Way, dimension};
 use super::super::value::{Array, Value};
 use super::{Fault, Lower, Lowered};
 
@@ -166,7 +166,8 @@ impl Lower<'_> {
             .map_err(|error| errors::question_too_large(name, error, e.span))?;
         let shape = Shape::new(program, axes.len(), Vec::new());
         let _phase = interrupt.phase("measure");
-        let found = dimension(&subject, &shape, (Cells::Along(cells), true), limits, interrupt);
+        let found =
+            dimension(&subject, &shape, (Cells::Along(cells), true, Way::default()), (self.graph, limits, interrupt));
         // What the work was told when it stopped is no message of its own.
         interrupt.tick()?;
         let here = |told: Diagnostic| {
@@ -175,7 +176,7 @@ impl Lower<'_> {
             told.help(format!("{name}(..., {}) looks at it with smaller cells", 2 * cells))
         };
         match found {
-            Ok((found, notes, _)) => {
+            Ok((found, notes, ..)) => {
                 let warnings = notes.into_iter().filter(|note| note.severity == Severity::Warning);
                 self.warnings.extend(warnings.map(here));
                 Ok(found)

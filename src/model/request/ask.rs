@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use crate::diagnostic::Diagnostic;
-use crate::field::{Coordinate, NodeId};
+use crate::field::{Coordinate, Graph, NodeId};
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::number::{Algebra, Binary};
@@ -20,6 +20,7 @@ use super::measured::{Dimension, Measured};
 use super::output::Output;
 use super::pictures;
 use super::space;
+use super::starred::{Way, measured};
 use super::subject::{Level, Place, Sequence, Subject};
 use super::together::subject;
 use super::told;
@@ -106,23 +107,24 @@ fn measure_subject(session: &Session, view: &View, subject: &Subject) -> Result<
     }
     notes.extend(told::first_moment(subject));
     let _phase = interrupt.phase("measure");
-    let (of, more, resolution) = dimension(subject, &shape, (view.cells, view.sharp), limits, interrupt)?;
+    let way = Way { route: view.route, centre: view.centre.as_deref() };
+    let asked = (view.cells, view.sharp, way);
+    let (of, more, resolution, route) = dimension(subject, &shape, asked, (&session.graph, limits, interrupt))?;
     notes.extend(more);
     let bounds = subject.axes.iter().map(|a| (a.coordinate, a.range)).collect();
-    Ok(Measured { object: subject.name.to_string(), bounds, resolution, of, notes })
+    Ok(Measured { object: subject.name.to_string(), bounds, resolution, route, of, notes })
 }
 
-/// What is measured of a subject in its space, what there is to say of it, and the cells along the longest side.
+/// What is measured of a subject in its space, what there is to say of it, the cells along the longest side, and the route that was taken.
 ///
 /// # Errors
 /// If it is empty there, or its boundary could not be found.
 pub(in crate::model) fn dimension(
     subject: &Subject,
     shape: &Shape,
-    (cells, sharp): (Cells, bool),
-    limits: &Limits,
-    interrupt: &Interrupt,
-) -> Result<(Dimension, Vec<Diagnostic>, usize), Diagnostic> {
+    (cells, sharp, way): (Cells, bool, Way<'_>),
+    (graph, limits, interrupt): (&Graph, &Limits, &Interrupt),
+) -> Result<(Dimension, Vec<Diagnostic>, usize, String), Diagnostic> {
     let mut notes = Vec::new();
     if let [axis] = subject.axes[..] {
         let line = intervals(shape, axis.range, interrupt)?;
@@ -131,9 +133,14 @@ pub(in crate::model) fn dimension(
         }
         notes.extend(told::undefined(subject, &line.counters));
         notes.extend(told::cut(subject, &[line.cut, [false; 2], [false; 2]]));
-        return Ok((Dimension::Line(line), notes, 0));
+        return Ok((Dimension::Line(line), notes, 0, String::new()));
     }
     let grid = subject.grid(cells, limits)?;
+    let cells = grid.cells.into_iter().max().unwrap_or_default();
+    if let Some((of, report, route)) = measured(subject, (shape, &grid, sharp), way, (graph, limits, interrupt))? {
+        notes.extend(told::of_report(subject, &report));
+        return Ok((of, notes, cells, route));
+    }
     let (of, report, is_settled) = if subject.axes.len() == 3 {
         let measures = measure_solid(shape, &grid, sharp, limits, interrupt).map_err(|e| unmeasured(&e))?;
         let (report, is_settled) = (measures.report.clone(), measures.is_settled);
@@ -147,10 +154,11 @@ pub(in crate::model) fn dimension(
     let Some(of) = of else { return Err(told::empty(subject, None, Some(&report))) };
     notes.extend(told::of_report(subject, &report));
     notes.extend((!is_settled).then(|| told::unsettled(subject)));
-    Ok((of, notes, grid.cells.into_iter().max().unwrap_or_default()))
+    let route = if subject.axes.len() == 3 { "cubes" } else { "squares" };
+    Ok((of, notes, cells, route.to_owned()))
 }
 
-fn unmeasured(error: &MeasureError) -> Diagnostic {
+pub(super) fn unmeasured(error: &MeasureError) -> Diagnostic {
     match error {
         MeasureError::Surface(SurfaceError::Cancelled) => cancelled(),
         other => Diagnostic::error("not-measured", other.to_string()).category(crate::diagnostic::Category::Result),

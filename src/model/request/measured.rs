@@ -21,6 +21,8 @@ pub struct Measured {
     pub bounds: Vec<(Coordinate, [f64; 2])>,
     /// Cells along the longest side.
     pub resolution: usize,
+    /// How the boundary was found: `cubes`, `squares`, or `star` and what it took; nothing on a line.
+    pub route: String,
     /// The measures.
     pub of: Dimension,
     /// Notes and warnings: where the space cuts it, what is undefined, what was too small.
@@ -44,6 +46,9 @@ impl Measured {
     pub fn json(&self) -> Value {
         let bounds: Map<String, Value> = self.bounds.iter().map(|(c, range)| (c.to_string(), json!(range))).collect();
         let mut all = json!({ "object": self.object, "bounds": bounds, "resolution": self.resolution });
+        if let (Value::Object(all), Some(route)) = (&mut all, self.route.split(',').next().filter(|r| !r.is_empty())) {
+            all.insert("route".into(), json!(route));
+        }
         let more = match &self.of {
             Dimension::Solid(m, triangles) => json!({
                 "volume": estimate(m.volume),
@@ -121,6 +126,9 @@ impl fmt::Display for Measured {
         let cells =
             if matches!(self.of, Dimension::Line(_)) { String::new() } else { format!(", {} cells", self.resolution) };
         writeln!(f, "  space         {}{cells}", ranges.join(", "))?;
+        if !self.route.is_empty() {
+            writeln!(f, "  route         {}", self.route)?;
+        }
         match &self.of {
             Dimension::Solid(m, triangles) => solid(f, m, *triangles),
             Dimension::Plane(figure) => plane(f, figure),

@@ -25,6 +25,7 @@ pub mod way;
 
 pub use crate::vm::Precision;
 pub(in crate::model) use ask::dimension;
+pub(in crate::model) use starred::Way;
 pub use ask::{measure, sample, sampling, write};
 pub use fields::{Sampled, Sampling};
 pub(super) use info::role;

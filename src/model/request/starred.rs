@@ -1,19 +1,27 @@
-//! Boundaries by the star route: chosen where an object is proved to be a star and the route or the space allow it. Makes no search.
+//! Boundaries by the star route: chosen where an object is proved to be a star and the route or the space allow it. Measures such objects too. Makes no search.
 
 use crate::diagnostic::{Category, Diagnostic};
-use crate::field::{Coordinate, NodeId};
+use crate::field::{Coordinate, Graph, NodeId};
+use crate::interrupt::Interrupt;
+use crate::limits::Limits;
 use crate::model::route::{Question, Refusal, Star, point, star};
+use crate::reuse::Digest;
 use crate::surface::check::check;
 use crate::surface::contour::Contour;
 use crate::surface::grid::Grid;
 use crate::surface::marching::Report;
+use crate::surface::measure::Measures;
 use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
+use crate::surface::star::measure::{figure, solid};
 use crate::surface::star::mesh::{Made, MeshError, Space, following, outline, outline_following, over};
-use crate::vm::Shape;
+use crate::vm::{Precision, Shape};
 
+use super::ask::unmeasured;
 use super::make::{Making, cancelled};
-use super::way::{Ready, Route};
+use super::measured::Dimension;
+use super::subject::Subject;
+use super::way::{Choice, Ready, Route};
 
 /// Bytes for each vertex of a mesh and what makes it.
 const BYTES_PER_VERTEX: usize = 400;
@@ -86,43 +94,21 @@ impl Making<'_> {
         Ok(made.map(|made| Contour { report: report(&made), lines: vec![made.boundary] }))
     }
 
-    /// The star with its space, if the star route is to be taken.
-    fn placed(&self, node: NodeId, shape: &Shape, grid: &Grid) -> Result<Option<Placed>, Diagnostic> {
-        let route = self.options.view.route;
-        if route == Route::Cubes {
-            return Ok(None);
-        }
-        let axes: Vec<Coordinate> = self.subject.axes.iter().map(|axis| axis.coordinate).collect();
-        let others = self.subject.fixed.iter().map(|fixed| fixed.0);
-        let fixed: Vec<(Coordinate, f64)> = others.zip(shape.fixed.iter().copied()).collect();
-        let ranges: Vec<[f64; 2]> = self.subject.bounds();
-        let middle: Vec<f64> = ranges.iter().map(|[lo, hi]| 0.5 * (lo + hi)).collect();
-        let centre = self.options.view.centre.as_deref().or(self.subject.centre.as_deref());
-        if let Some(centre) = centre.filter(|centre| centre.len() != axes.len()) {
-            let title =
-                format!("the centre has {} numbers, and `{}` {} axes", centre.len(), self.subject.name, axes.len());
-            let help = "give one number for each axis, in the order X, Y, Z";
-            return Err(Diagnostic::error("wrong-centre", title).category(Category::Usage).help(help));
-        }
-        let question = Question { node, axes: &axes, fixed: &fixed, centre, hint: Some(&middle) };
-        let star = match star(self.shop.graph, question, self.shop.limits, self.shop.interrupt)? {
-            Ok(star) => star,
-            Err(_) if route == Route::Auto => return Ok(None),
-            Err(refusal) => return Err(refused(&self.subject.name, &refusal)),
-        };
-        let inside = star.gauge.centre.iter().zip(&ranges).all(|(c, [lo, hi])| lo < c && c < hi);
-        if !inside {
-            if route == Route::Auto {
-                return Ok(None);
+    /// The star with its space, if the star route is to be taken. Where a centre or a guide was given in vain, that is told.
+    fn placed(&mut self, node: NodeId, shape: &Shape, grid: &Grid) -> Result<Option<Placed>, Diagnostic> {
+        let view = &self.options.view;
+        let way = Way { route: view.route, centre: view.centre.as_deref() };
+        let shop = (self.shop.graph, self.shop.limits, self.shop.interrupt);
+        match placed(self.subject, (node, shape, grid), way, shop)? {
+            Ok(placed) => Ok(Some(placed)),
+            Err(refusal) => {
+                let is_asked =
+                    view.centre.is_some() || self.subject.centre.is_some() || view.guide != Choice::Following;
+                let told = refusal.filter(|_| is_asked).map(|refusal| in_vain(&self.subject.name, &refusal));
+                self.say(told);
+                Ok(None)
             }
-            let title = format!("the centre {} lies outside the modelling space", point(&star.gauge.centre));
-            return Err(
-                Diagnostic::error("wrong-centre", title).help("widen the space with --bounds, or name another centre")
-            );
         }
-        let length = SIDE * (0..axes.len()).map(|d| grid.cell()[d]).fold(0.0, f64::max);
-        let most = (self.shop.limits.memory_bytes / BYTES_PER_VERTEX).min(1 << 28);
-        Ok(Some(Placed { star, space: Space { ranges }, length, most }))
     }
 
     /// What was made, unless the route is free and the other one is better: it closes exactly what the space cuts.
@@ -143,6 +129,110 @@ impl Making<'_> {
             }
         }
     }
+}
+
+/// The route that is asked for, and the centre that is given with it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::model) struct Way<'a> {
+    pub(in crate::model) route: Route,
+    pub(in crate::model) centre: Option<&'a [f64]>,
+}
+
+/// The warning about an object that is shown by the other route although a centre or a guide was given.
+fn in_vain(name: &str, refusal: &Refusal) -> Diagnostic {
+    let title =
+        format!("the centre or the guide is of no use: `{name}` is not known to be a star: {}", refusal.words());
+    Diagnostic::warning("no-star", title).help("its boundary was sought by cells; `--route star` tells more")
+}
+
+/// A star with its space, if the star route is to be taken; else why not, unless it was not asked for.
+fn placed(
+    subject: &Subject,
+    (node, shape, grid): (NodeId, &Shape, &Grid),
+    Way { route, centre }: Way<'_>,
+    (graph, limits, interrupt): (&Graph, &Limits, &Interrupt),
+) -> Result<Result<Placed, Option<Refusal>>, Diagnostic> {
+    if route == Route::Cubes {
+        return Ok(Err(None));
+    }
+    let axes: Vec<Coordinate> = subject.axes.iter().map(|axis| axis.coordinate).collect();
+    let others = subject.fixed.iter().map(|fixed| fixed.0);
+    let fixed: Vec<(Coordinate, f64)> = others.zip(shape.fixed.iter().copied()).collect();
+    let ranges: Vec<[f64; 2]> = subject.bounds();
+    let middle: Vec<f64> = ranges.iter().map(|[lo, hi]| 0.5 * (lo + hi)).collect();
+    let centre = centre.or(subject.centre.as_deref());
+    if let Some(centre) = centre.filter(|centre| centre.len() != axes.len()) {
+        let title = format!("the centre has {} numbers, and `{}` {} axes", centre.len(), subject.name, axes.len());
+        let help = "give one number for each axis, in the order X, Y, Z";
+        return Err(Diagnostic::error("wrong-centre", title).category(Category::Usage).help(help));
+    }
+    let question = Question { node, axes: &axes, fixed: &fixed, centre, hint: Some(&middle) };
+    let star = match star(graph, question, limits, interrupt)? {
+        Ok(star) => star,
+        Err(refusal) if route == Route::Auto => return Ok(Err(Some(refusal))),
+        Err(refusal) => return Err(refused(&subject.name, &refusal)),
+    };
+    let inside = star.gauge.centre.iter().zip(&ranges).all(|(c, [lo, hi])| lo < c && c < hi);
+    if !inside {
+        if route == Route::Auto {
+            return Ok(Err(None));
+        }
+        let title = format!("the centre {} lies outside the modelling space", point(&star.gauge.centre));
+        return Err(
+            Diagnostic::error("wrong-centre", title).help("widen the space with --bounds, or name another centre")
+        );
+    }
+    let length = SIDE * (0..axes.len()).map(|d| grid.cell()[d]).fold(0.0, f64::max);
+    let most = (limits.memory_bytes / BYTES_PER_VERTEX).min(1 << 28);
+    Ok(Ok(Placed { star, space: Space { ranges }, length, most }))
+}
+
+/// What is measured of a star, and a line about the rays; nothing where cells are the better way to measure it.
+///
+/// # Errors
+/// If the route is asked for and cannot be taken.
+pub(super) fn measured(
+    subject: &Subject,
+    (shape, grid, sharp): (&Shape, &Grid, bool),
+    way: Way<'_>,
+    (graph, limits, interrupt): (&Graph, &Limits, &Interrupt),
+) -> Result<Option<(Dimension, Report, String)>, Diagnostic> {
+    if shape.precision == Precision::Single {
+        return Ok(None);
+    }
+    let Ok(placed) = placed(subject, (subject.node, shape, grid), way, (graph, limits, interrupt))? else {
+        return Ok(None);
+    };
+    let gauge = &placed.star.gauge;
+    let tell = |to: &mut Digest| {
+        shape.tell(to);
+        to.shown(&("rays", grid, sharp, &gauge.centre, limits.memory_bytes, limits.search_operations));
+    };
+    let make = || -> Result<Option<(Dimension, Report)>, Diagnostic> {
+        if subject.axes.len() == 3 {
+            let found = solid(gauge, shape, grid, sharp, limits, interrupt).map_err(|error| unmeasured(&error))?;
+            return Ok(found.map(|found| {
+                let (triangles, report) = (found.topology.triangles, found.report.clone());
+                (Dimension::Solid(Box::new(found), triangles), report)
+            }));
+        }
+        let found = figure(gauge, shape, grid, sharp, interrupt).map_err(|error| unmeasured(&error.into()))?;
+        Ok(found.map(|found| {
+            let report = found.report.clone();
+            (Dimension::Plane(Box::new(found)), report)
+        }))
+    };
+    let found = interrupt.whole("measures", tell, |_| size_of::<Measures>(), make)?;
+    if found.is_none() && way.route == Route::Star {
+        let title = format!("`{}` is not measured along rays: the space cuts it, or it has creases", subject.name);
+        return Err(Diagnostic::error("not-measured", title)
+            .category(Category::Result)
+            .help("leave the route to `auto`: cells measure it"));
+    }
+    Ok(found.map(|(found, report)| {
+        let line = format!("star, {} points on rays from {}", report.samples, point(&gauge.centre));
+        (found, report, line)
+    }))
 }
 
 /// The message about an object for which the star route was asked and that is none.

@@ -70,7 +70,7 @@ impl Choice {
             return Ok(Self::Following);
         }
         let (name, number) = text.split_once(':').map_or((text, None), |(name, number)| (name, Some(number)));
-        let number = number.map(|n| n.parse::<usize>().map_err(|_| format!("`{n}` is no number"))).transpose()?;
+        let number = number.map(|n| n.parse::<usize>().map_err(|_| format!("`{n}` is no whole number"))).transpose()?;
         let within = |n: usize, least: usize, most: usize| {
             if (least..=most).contains(&n) {
                 Ok(n)
@@ -131,7 +131,10 @@ impl Ready {
             Choice::Solid(solid, level) => {
                 let bytes = 200 * solid.vertices(*level);
                 if bytes > session.limits.memory_bytes {
-                    return Err(bad(solid.name(), "it would take more memory than there may be"));
+                    let title = format!("`{}:{level}` would take more memory than there may be", solid.name());
+                    return Err(Diagnostic::error("too-much-memory", title)
+                        .category(Category::Result)
+                        .help("each level less takes a quarter of it"));
                 }
                 Self::Solid(solid.guide(*level))
             }

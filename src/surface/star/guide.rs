@@ -215,6 +215,11 @@ impl Guide {
             let guide = if guide.volume() < 0.0 { about(middle, true) } else { guide };
             match guide.check() {
                 Ok(()) => return Ok(guide),
+                // The triangle is told where it stands in the file.
+                Err(GuideError::NotStar(corners)) => {
+                    let back = |c: [f64; 3]| std::array::from_fn(|d| c[d] + middle[d]);
+                    last = GuideError::NotStar(corners.map(back));
+                }
                 Err(error) => last = error,
             }
         }

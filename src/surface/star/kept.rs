@@ -1,10 +1,11 @@
 //! Star solids of half-spaces that change from one mesh to the next, as in a session: what a guide's vertices keep is changed by the
-//! difference of the old and the new half-spaces, which takes the same time however many there are: \[A96\], edits. Knows no other gauge.
+//! difference of the old and the new half-spaces, which takes the same time however many there are: \[A96\], edits. Leaves other gauges to
+//! [`folded`].
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::Gauge;
 use super::guide::Guide;
+use super::{Gauge, folded};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::number::star::{Row, StarSolid};
 use crate::reuse::Digest;
@@ -13,13 +14,21 @@ use crate::surface::edit::{Refused, Sculpture, difference};
 /// Half-spaces below which an evaluation anew is as good.
 const FEW: usize = 16;
 
-/// How far the boundary is in each direction of a guide, in lengths of it, if the gauge is a star solid of half-spaces and results of earlier
-/// work may be kept. Where the last solid that was asked for differs by one edit, that edit is made; the reaches are then those of a fresh
-/// evaluation within 1e-9.
+/// The gauge in each direction of a guide, if it is a star solid of half-spaces or a fold of many operands, and results of earlier work may be
+/// kept. Where the one that was asked for last differs by an edit, that edit is made; the values are then those of a fresh evaluation within
+/// 1e-9.
 ///
 /// # Errors
 /// [`Cancelled`] soon after the interrupt was set.
-pub(super) fn reaches(gauge: &Gauge, guide: &Guide, interrupt: &Interrupt) -> Result<Option<Vec<f64>>, Cancelled> {
+pub(super) fn values(gauge: &Gauge, guide: &Guide, interrupt: &Interrupt) -> Result<Option<Vec<f64>>, Cancelled> {
+    if let Some(parts) = &gauge.parts {
+        return folded::values(parts, &gauge.fixed, guide, interrupt);
+    }
+    let Some(reaches) = reaches(gauge, guide, interrupt)? else { return Ok(None) };
+    Ok(Some(reaches.into_iter().map(|reach| 1.0 / reach).collect()))
+}
+
+fn reaches(gauge: &Gauge, guide: &Guide, interrupt: &Interrupt) -> Result<Option<Vec<f64>>, Cancelled> {
     let (Some(reuse), Some(solid)) = (interrupt.reuse(), star(gauge)) else { return Ok(None) };
     if solid.half_spaces() < FEW {
         return Ok(None);

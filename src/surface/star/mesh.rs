@@ -194,9 +194,8 @@ pub fn over(
     interrupt: &Interrupt,
 ) -> Result<Made<Mesh>, MeshError> {
     let mut vertices = Vertices::default();
-    let kept = if normals { None } else { kept::reaches(gauge, guide, interrupt)? };
-    if let Some(reaches) = kept {
-        let values: Vec<f64> = reaches.iter().map(|reach| 1.0 / reach).collect();
+    let kept = if normals { None } else { kept::values(gauge, guide, interrupt)? };
+    if let Some(values) = kept {
         vertices.place(gauge, space, &guide.directions, &values)?;
     } else {
         vertices.extend(gauge, space, &guide.directions, normals, interrupt)?;

@@ -39,6 +39,8 @@ pub enum Fault {
     Endless,
     /// The centre lies outside, or on the boundary.
     Outside,
+    /// The ray may leave the shape more than once.
+    Several,
     /// A part is undefined or infinite.
     Undefined,
     /// Intervals cannot decide near that direction.
@@ -61,7 +63,7 @@ pub fn prove(gauge: &Gauge, interrupt: &Interrupt) -> Result<Result<Proof, Doubt
         }
     }
     let mut proof = Proof { least: f64::INFINITY, largest: 0.0 };
-    let cost = [Some(&gauge.gauge), gauge.positive.as_ref(), gauge.finite.as_ref()];
+    let cost = [Some(&gauge.gauge), gauge.positive.as_ref(), gauge.single.as_ref(), gauge.finite.as_ref()];
     let cost: usize = cost.into_iter().flatten().map(|program| program.len().max(1)).sum();
     let mut left = (OPERATIONS / cost).min(BOXES);
     while !open.is_empty() {
@@ -140,6 +142,13 @@ impl Prover<'_> {
                 return of(Some((k, if values[k].is_nan() { Fault::Undefined } else { Fault::Outside })));
             }
         }
+        if let Some(program) = &self.gauge.single {
+            let values = self.values(program, &middles);
+            let bad = values.iter().position(|v| v.is_nan() || *v < 0.0);
+            if let Some(k) = bad {
+                return of(Some((k, if values[k].is_nan() { Fault::Undefined } else { Fault::Several })));
+            }
+        }
         if let Some(program) = &self.gauge.finite
             && let Some(k) = self.values(program, &middles).iter().position(|v| !v.is_finite())
         {
@@ -168,6 +177,10 @@ impl Prover<'_> {
         if let Some(program) = &self.gauge.positive {
             let positive = |r: &Interval| !r.undefined && r.lo > 0.0 && r.hi < f64::INFINITY;
             keep(&mut all, &self.ranges(program, batch), positive);
+        }
+        if let Some(program) = &self.gauge.single {
+            let fits = |r: &Interval| !r.undefined && r.lo >= 0.0 && r.hi < f64::INFINITY;
+            keep(&mut all, &self.ranges(program, batch), fits);
         }
         if let Some(program) = &self.gauge.finite {
             let finite = |r: &Interval| !r.undefined && r.largest() < f64::INFINITY;
