@@ -20,6 +20,9 @@ use crate::surface::boxes::points;
 use crate::surface::sampler::Counters;
 use crate::vm::Shape;
 
+/// What an object is in a piece, as far as a depth at least: what is farther away may be left out.
+pub type Shapes<'a, E> = dyn Fn(Window, f64) -> Result<Shape, E> + Sync + 'a;
+
 /// A kept picture of one object.
 #[derive(Debug)]
 pub struct Easel {
@@ -39,8 +42,8 @@ pub struct Easel {
 /// A piece of the picture that is drawn but not yet put on it.
 struct Piece {
     window: Window,
-    /// The object there, once it was needed.
-    shape: Option<Shape>,
+    /// The object there, once it was needed, and as far as which depth.
+    shape: Option<(Shape, f64)>,
     /// Which of its tiles are to be looked at anew.
     touched: Vec<bool>,
     /// What was known of it.
@@ -92,12 +95,12 @@ impl Easel {
     /// # Errors
     /// [`Cancelled`] soon after the interrupt was set.
     pub fn draw(&mut self, thing: &Thing, interrupt: &Interrupt) -> Result<Counters, Cancelled> {
-        let shape = |_: Window| Ok(thing.shape.clone());
+        let shape = |_: Window, _: f64| Ok(thing.shape.clone());
         if let Some(light) = self.light() {
-            self.relight::<Cancelled>(&light.windows(&[None]), &shape, interrupt)?;
+            self.relight::<Cancelled>(&light.windows(&[None]), &shape, f64::INFINITY, interrupt)?;
         }
         let windows = self.screen().windows(&[None]);
-        self.redraw::<Cancelled>(&windows, (thing, &shape), &[None], interrupt)
+        self.redraw::<Cancelled>(&windows, (thing, &shape), (&[None], f64::INFINITY), interrupt)
     }
 
     /// The picture.
@@ -155,18 +158,28 @@ impl Easel {
     }
 
     /// Looks again from the key light, at pieces of what it sees, each with the object as it is there now. Gives where on the picture the
-    /// light may be another one than before. If the work was stopped, nothing has changed.
+    /// light may be another one than before; what has changed is at most `extent` deep. If the work was stopped, nothing has changed.
     ///
     /// # Errors
     /// [`Cancelled`] soon after the interrupt was set; what `shape` fails with.
     pub fn relight<E: From<Cancelled> + Send>(
         &mut self,
         windows: &[Window],
-        shape: &(dyn Fn(Window) -> Result<Shape, E> + Sync),
+        shape: &Shapes<'_, E>,
+        extent: f64,
         interrupt: &Interrupt,
     ) -> Result<Vec<Reach>, E> {
         let Some(shadows) = self.air.common() else { return Ok(Vec::new()) };
-        let cast = |&window: &Window| Ok(shadows.recast(&shape(window)?, self.space, window, interrupt)?);
+        let cast = |&window: &Window| {
+            let mut far = shadows.deepest(window) + extent;
+            loop {
+                let patch = shadows.recast(&shape(window, far)?, self.space, window, interrupt)?;
+                if far == f64::INFINITY || patch.deepest() <= far {
+                    return Ok(patch);
+                }
+                far = f64::INFINITY;
+            }
+        };
         let patches: Vec<_> = windows.par_iter().map(cast).collect::<Result<_, E>>()?;
         interrupt.tick()?;
         let screen = self.screen();
@@ -177,7 +190,8 @@ impl Easel {
 
     /// Draws pieces of the picture anew, each with the object as it is there now: rays are cast where the object itself may have changed,
     /// and all of the pieces are lit again. Nothing has changed if the work was stopped. `look` says how it looks, `shape` what it is in a
-    /// piece; that is asked only where rays are cast.
+    /// piece, as far as a depth at least; that is asked only where rays are cast. What has changed is at the places `changed`, and at most so
+    /// deep.
     ///
     /// # Errors
     /// [`Cancelled`] soon after the interrupt was set; what `shape` fails with.
@@ -187,8 +201,8 @@ impl Easel {
     pub fn redraw<E: From<Cancelled> + Send>(
         &mut self,
         windows: &[Window],
-        (look, shape): (&Thing, &(dyn Fn(Window) -> Result<Shape, E> + Sync)),
-        changed: &[Reach],
+        (look, shape): (&Thing, &Shapes<'_, E>),
+        changed: (&[Reach], f64),
         interrupt: &Interrupt,
     ) -> Result<Counters, E> {
         let steps = |window: &Window| points(&Frustum::new(self.scene()).within(*window));
@@ -225,8 +239,8 @@ impl Easel {
     fn first<E: From<Cancelled>>(
         &self,
         window: Window,
-        (look, shape): (&Thing, &(dyn Fn(Window) -> Result<Shape, E> + Sync)),
-        changed: &[Reach],
+        (look, shape): (&Thing, &Shapes<'_, E>),
+        (changed, extent): (&[Reach], f64),
         interrupt: &Interrupt,
     ) -> Result<Piece, E> {
         let brush = self.brush(look);
@@ -239,7 +253,10 @@ impl Easel {
         let mut made = None;
         let (met, counters) = if touched.contains(&true) {
             let seed = Seed { touched: &touched, hits: &before.met.1 };
-            search_in(made.insert(shape(window)?), &self.scene(), window, aim, Some(seed), interrupt)?
+            let far = deepest(&before.met.1) + extent;
+            let (object, met) = self.cast((window, shape), far, (aim, Some(seed)), interrupt)?;
+            made = object;
+            met
         } else {
             (before.met.clone(), Counters::default())
         };
@@ -256,11 +273,31 @@ impl Easel {
         Ok(Piece { window, shape: made, touched, before, met, shares, painted, seen, counters })
     }
 
+    /// Where the rays of a piece meet the object: at first as far as a depth that is likely to be enough. Also the object as it was used.
+    fn cast<E: From<Cancelled>>(
+        &self,
+        (window, shape): (Window, &Shapes<'_, E>),
+        mut far: f64,
+        (aim, seed): (Aim<'_>, Option<Seed<'_>>),
+        interrupt: &Interrupt,
+    ) -> Result<(Option<(Shape, f64)>, (Met, Counters)), E> {
+        let mut counters = Counters::default();
+        loop {
+            let object = shape(window, far)?;
+            let (met, cost) = search_in(&object, &self.scene(), window, aim, seed, interrupt)?;
+            counters.add(cost);
+            if far == f64::INFINITY || deepest(&met.1) <= far {
+                return Ok((Some((object, far)), (met, counters)));
+            }
+            far = f64::INFINITY;
+        }
+    }
+
     /// The pixels of a piece that show edges, from more rays: those of `wanted` are cast, the others are known.
     fn second<E: From<Cancelled>>(
         &self,
         piece: &mut Piece,
-        (look, shape): (&Thing, &(dyn Fn(Window) -> Result<Shape, E> + Sync)),
+        (look, shape): (&Thing, &Shapes<'_, E>),
         wanted: &[bool],
         interrupt: &Interrupt,
     ) -> Result<(), E> {
@@ -271,12 +308,13 @@ impl Easel {
         let brush = self.brush(look);
         let (rays, size, from) = (brush.fine * brush.fine, size(piece.window), piece.window[0]);
         if piece.wanted().next().is_some() {
-            let shape = match piece.shape.take() {
-                Some(shape) => shape,
-                None => shape(piece.window)?,
+            let known = |window: Window, far: f64| match &piece.shape {
+                Some((object, known)) if *known >= far => Ok(object.clone()),
+                _ => shape(window, far),
             };
+            let far = piece.shape.as_ref().map_or_else(|| deepest(&piece.met.1), |(_, far)| *far);
             let aim = Aim { pattern: Pattern::Shares(brush.fine, wanted), tolerance: EXACT, normals: true };
-            let (met, cost) = search_in(&shape, &self.scene(), piece.window, aim, None, interrupt)?;
+            let (_, (met, cost)) = self.cast((piece.window, &known), far, (aim, None), interrupt)?;
             piece.counters.add(cost);
             for (places, hits) in met.0.chunks_exact(rays).zip(met.1.chunks_exact(rays)) {
                 let [x, y] = [0, 1].map(|k| places[0][k] as usize - from[k]);
@@ -390,6 +428,12 @@ fn tiles(window: Window, reaches: &[Reach]) -> Vec<bool> {
         }
     }
     touched
+}
+
+/// The depth before which all of some rays hit; none is enough if one of them misses.
+fn deepest(hits: &[Option<Hit>]) -> f64 {
+    let depth = |hit: &Option<Hit>| hit.map_or(f64::INFINITY, |hit| hit.depth);
+    if hits.is_empty() { f64::INFINITY } else { hits.iter().map(depth).fold(f64::NEG_INFINITY, f64::max) }
 }
 
 /// The hull of two ranges of pixels.

@@ -34,6 +34,14 @@ impl Screen {
         self.hull(&super::extent::Extent::whole(of))
     }
 
+    /// The depth at which a box begins.
+    #[must_use]
+    pub fn nearest(&self, of: Space) -> f64 {
+        let Camera { eye, forward, .. } = self.camera;
+        let depth = |point: [f64; 3]| (0..3).map(|k| (point[k] - eye[k]) * forward[k]).sum::<f64>();
+        super::extent::Extent::whole(of).into_iter().map(depth).fold(f64::INFINITY, f64::min)
+    }
+
     /// Where the convex hull of some points is.
     #[must_use]
     pub fn hull(&self, points: &[[f64; 3]]) -> Reach {

@@ -22,7 +22,21 @@ pub struct Shadows {
 }
 
 /// A part of what the light sees: first column and row, columns and rows, depths.
-pub(super) type Patch = ([usize; 2], [usize; 2], Vec<f32>);
+pub(super) struct Patch {
+    from: [usize; 2],
+    size: [usize; 2],
+    depths: Vec<f32>,
+}
+
+impl Patch {
+    /// The depth before which all its rays hit.
+    pub(super) fn deepest(&self) -> f64 {
+        if self.depths.is_empty() {
+            return f64::INFINITY;
+        }
+        self.depths.iter().fold(f64::NEG_INFINITY, |deepest, &depth| deepest.max(f64::from(depth)))
+    }
+}
 
 /// Rays along each side of a group in which changes are gathered.
 const GROUP: usize = 8;
@@ -80,12 +94,19 @@ impl Shadows {
         let depth = |hit: Option<Hit>| hit.map_or(f32::INFINITY, |hit| hit.depth as f32);
         let ((_, hits), _) = search_in(shape, &scene, window, aim, None, interrupt)?;
         let size = [0, 1].map(|k| window[1][k] - window[0][k]);
-        Ok((window[0], size, hits.into_iter().map(depth).collect()))
+        Ok(Patch { from: window[0], size, depths: hits.into_iter().map(depth).collect() })
+    }
+
+    /// The depth before which all rays of a part hit.
+    pub(super) fn deepest(&self, [from, to]: Window) -> f64 {
+        let rows = from[1]..to[1];
+        let row = |y: usize| &self.depths[y * self.side + from[0]..y * self.side + to[0]];
+        rows.flat_map(row).fold(f64::NEG_INFINITY, |deepest, &depth| deepest.max(f64::from(depth)))
     }
 
     /// Puts depths in. Gives for each group of rays of which some have changed the corners of a hull of all points of the space whose light
     /// that may change.
-    pub(super) fn put(&mut self, (from, size, mut depths): Patch, space: Space) -> Vec<Vec<[f64; 3]>> {
+    pub(super) fn put(&mut self, Patch { from, size, mut depths }: Patch, space: Space) -> Vec<Vec<[f64; 3]>> {
         // A piece in which nothing is met says so by holding nothing.
         depths.resize(size[0] * size[1], f32::INFINITY);
         let (near, far) = self.camera.depths(space.lo, space.hi);

@@ -46,7 +46,7 @@ impl Carving {
         }
         let pixel = at.map(|v| v as usize);
         let window = [pixel, pixel.map(|v| v + 1)];
-        let shape = self.shape(session, |s| meets(&s.seen_near, window))?;
+        let shape = self.shape(session, |s| meets(&s.seen_near.0, window))?;
         let thing = Thing::opaque(shape, self.studio.paint.clone());
         let hit = self.easel.pick(&thing, pixel, &session.interrupt)?;
         let Some((point, normal)) = hit else { return Err(errors::missed(self.name(), pixel, self.seen())) };

@@ -24,7 +24,7 @@ use crate::limits::Limits;
 use crate::number::{Algebra, Binary};
 use crate::picture::easel::Easel;
 use crate::picture::raycast::{Space, Thing};
-use crate::picture::screen::{Reach, Window, meets};
+use crate::picture::screen::{Reach, Screen, Window, meets};
 use crate::picture::{Image, Paint};
 use crate::surface::space::{Known, Outcome, find};
 use crate::syntax::Mode;
@@ -293,13 +293,15 @@ impl Carving {
         touched.extend(self.strokes[kept..].iter().map(|s| (s.reach, s.seen)));
         let mut seen: Vec<Reach> = touched.iter().map(|of| of.1).collect();
         let changed = seen.clone();
+        let diagonal = |of: &Space| (0..3).map(|k| (of.hi[k] - of.lo[k]).powi(2)).sum::<f64>().sqrt();
+        let extent = touched.iter().map(|of| diagonal(&of.0)).fold(0.0, f64::max);
         if let Some(light) = self.easel.light() {
             let lit: Vec<Reach> = touched.iter().map(|of| light.reach(of.0)).collect();
-            seen.extend(self.relight(session, &light.windows(&lit))?);
+            seen.extend(self.relight(session, &light.windows(&lit), extent)?);
         }
         let windows = self.easel.screen().windows(&seen);
         let pixels = windows.iter().map(|[from, to]| (to[0] - from[0]) * (to[1] - from[1])).sum();
-        self.redraw(session, &windows, &changed)?;
+        self.redraw(session, &windows, (&changed, extent))?;
         Ok(if windows.is_empty() { Drawn::Same } else { Drawn::Part(pixels) })
     }
 
@@ -319,31 +321,31 @@ impl Carving {
         }
         self.add(session, forms)?;
         if let Some(light) = self.easel.light() {
-            self.relight(session, &light.windows(&[None]))?;
+            self.relight(session, &light.windows(&[None]), f64::INFINITY)?;
         }
         let windows = self.easel.screen().windows(&[None]);
-        self.redraw(session, &windows, &[None])?;
+        self.redraw(session, &windows, (&[None], f64::INFINITY))?;
         Ok(Drawn::Whole)
     }
 
     /// Looks again from the light; where on the picture there may be another light then.
-    fn relight(&mut self, session: &Session, windows: &[Window]) -> Asked<Vec<Reach>> {
+    fn relight(&mut self, session: &Session, windows: &[Window], extent: f64) -> Asked<Vec<Reach>> {
         let base = self.base_here(session).map_err(|told| vec![told])?;
         let _phase = session.interrupt.phase("shadows");
         let Self { easel, local, strokes, studio, .. } = self;
         let near = Near { local, strokes, studio, base, limits: &session.limits };
-        let shape = |window: Window| near.shape(|s| meets(&s.lit_near, window));
-        easel.relight(windows, &shape, &session.interrupt).map_err(|told| vec![told])
+        let shape = |window: Window, far: f64| near.shape(|s| s.lit_near.1 <= far && meets(&s.lit_near.0, window));
+        easel.relight(windows, &shape, extent, &session.interrupt).map_err(|told| vec![told])
     }
 
     /// Draws pieces of the picture anew; the workpiece itself may have changed at some places.
-    fn redraw(&mut self, session: &Session, windows: &[Window], changed: &[Reach]) -> Asked<()> {
+    fn redraw(&mut self, session: &Session, windows: &[Window], changed: (&[Reach], f64)) -> Asked<()> {
         let base = self.base_here(session).map_err(|told| vec![told])?;
         let look = Thing::opaque(self.shape(session, |_| false).map_err(|told| vec![told])?, self.studio.paint.clone());
         let _phase = session.interrupt.phase("picture");
         let Self { easel, local, strokes, studio, .. } = self;
         let near = Near { local, strokes, studio, base, limits: &session.limits };
-        let shape = |window: Window| near.shape(|s| meets(&s.seen_near, window));
+        let shape = |window: Window, far: f64| near.shape(|s| s.seen_near.1 <= far && meets(&s.seen_near.0, window));
         easel.redraw(windows, (&look, &shape), changed, &session.interrupt).map_err(|told| vec![told])?;
         self.torn = false;
         Ok(())
@@ -370,6 +372,8 @@ impl Carving {
     /// Adds strokes to those that are known.
     fn add(&mut self, session: &mut Session, forms: Vec<(DefinitionId, Form)>) -> Asked<()> {
         let (screen, light) = (self.easel.screen(), self.easel.light());
+        let place = |screen: &Screen, near: Space| (screen.reach(near), screen.nearest(near));
+        let lit = |near: Space| light.map_or((None, f64::NEG_INFINITY), |light| place(&light, near));
         // The widest blend of those that there are, whatever there was before: the same strokes always give the same picture.
         let widest =
             self.strokes.iter().map(|s| s.form.blend).chain(forms.iter().map(|of| of.1.blend)).fold(0.0, f64::max);
@@ -379,8 +383,7 @@ impl Carving {
                 let form = self.strokes[k].form.clone();
                 let near = form.frame.place(self.box_of(session, &form.tool, form.blend + 2.0 * widest)?);
                 let stroke = &mut self.strokes[k];
-                (stroke.near, stroke.seen_near) = (near, screen.reach(near));
-                stroke.lit_near = light.and_then(|light| light.reach(near));
+                (stroke.near, stroke.seen_near, stroke.lit_near) = (near, place(&screen, near), lit(near));
             }
         }
         let limit = session.limits.program_operations;
@@ -392,8 +395,7 @@ impl Carving {
             let link = self.local.link(&session.graph, (before, after), limit).ok_or_else(too_many)?;
             let reach = form.frame.place(self.box_of(session, &form.tool, form.blend)?);
             let near = form.frame.place(self.box_of(session, &form.tool, form.blend + 2.0 * widest)?);
-            let (seen, seen_near) = (screen.reach(reach), screen.reach(near));
-            let lit_near = light.and_then(|light| light.reach(near));
+            let (seen, seen_near, lit_near) = (screen.reach(reach), place(&screen, near), lit(near));
             self.numbers.insert(id, self.strokes.len());
             self.strokes.push(Stroke {
                 id,

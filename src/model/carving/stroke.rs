@@ -46,10 +46,10 @@ pub struct Stroke {
     pub seen: Reach,
     /// Outside of this box it changes no value that matters to another stroke.
     pub near: Space,
-    /// Where that is on the picture.
-    pub seen_near: Reach,
-    /// Where that is in what the light sees.
-    pub lit_near: Reach,
+    /// Where that is on the picture, and at which depth it begins.
+    pub seen_near: (Reach, f64),
+    /// The same in what the light sees.
+    pub lit_near: (Reach, f64),
 }
 
 impl Frame {
