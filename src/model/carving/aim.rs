@@ -6,7 +6,7 @@ use crate::diagnostic::Diagnostic;
 use crate::model::request::cancelled;
 use crate::model::session::Session;
 use crate::number::{Algebra, Binary, Unary};
-use crate::picture::raycast::{Space, Thing};
+use crate::picture::raycast::Thing;
 use crate::picture::screen::meets;
 use crate::surface::sampler::Sampler;
 use crate::surface::space::reach;
@@ -119,7 +119,8 @@ impl Carving {
     pub(super) fn touches(&mut self, session: &mut Session, way: Way, spot: &Spot) -> Asked<()> {
         let placed = self.tool.placed(way, spot, self.digits());
         let tool = self.evaluated(session, &placed)?;
-        let found = self.tool_space(session, way, spot)?;
+        let about = self.box_of(session, &self.tool.text.clone().into(), 0.0)?;
+        let found = self.tool.frame(way, spot).place(about);
         let space = self.studio.space;
         let within = |s: &Stroke| (0..3).all(|k| s.near.lo[k] <= found.hi[k] && found.lo[k] <= s.near.hi[k]);
         let limit = session.limits.program_operations;
@@ -137,18 +138,9 @@ impl Carving {
         let ranges: Vec<(f64, f64)> =
             [0, 1, 2].map(axis).into_iter().chain(self.studio.fixed.iter().map(|&v| (v, v))).collect();
         let is_there = ranges.iter().all(|(lo, hi)| lo <= hi)
-            && reach(program, &ranges, 0.5, session.limits.search_operations / 100, &session.interrupt)
+            && reach(program, &ranges, 0.5, session.limits.search_operations / 10, &session.interrupt)
                 .map_err(|_| vec![cancelled()])?
                 .is_some();
         if is_there { Ok(()) } else { Err(vec![errors::nothing_there(self.name(), spot.point, way == Way::Cut)]) }
-    }
-
-    /// The box of the tool in hand where it would stand.
-    fn tool_space(&mut self, session: &mut Session, way: Way, spot: &Spot) -> Asked<Space> {
-        let about = self.box_of(session, &self.tool.text.clone().into(), 0.0)?;
-        let reach = (0..3).map(|k| about.lo[k].abs().max(about.hi[k].abs()).powi(2)).sum::<f64>().sqrt();
-        let _ = way;
-        let off = self.tool.lowest.unwrap_or(0.0) + reach;
-        Ok(Space { lo: spot.point.map(|v| v - off - reach), hi: spot.point.map(|v| v + off + reach) })
     }
 }

@@ -79,8 +79,13 @@ impl Frame {
         (x.hypot(y) > 0.0).then(|| libm::atan2(y, x))
     }
 
+    /// As `tr_shift` moves it.
+    pub fn upright(at: [f64; 3]) -> Self {
+        Self { at, axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] }
+    }
+
     /// As `tr_place` turns it.
-    fn turned(at: [f64; 3], normal: [f64; 3], turn: f64) -> Option<Self> {
+    pub fn turned(at: [f64; 3], normal: [f64; 3], turn: f64) -> Option<Self> {
         let length = normal.iter().map(|v| v * v).sum::<f64>().sqrt();
         if !(length > 0.0 && length.is_finite()) {
             return None;
@@ -111,10 +116,7 @@ pub fn read(session: &Session, name: &str, definition: &Definition) -> Option<(F
     matches!(&of.kind, ExprKind::Name(of) if **of == *name).then_some(())?;
     let blend = number(blend).filter(|blend| *blend >= 0.0)?;
     let (tool, frame) = match library(session, tool)? {
-        ("tr_shift", [tool, at]) => {
-            let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            (tool, Frame { at: vector(at)?, axes })
-        }
+        ("tr_shift", [tool, at]) => (tool, Frame::upright(vector(at)?)),
         ("tr_place", [tool, at, normal, turn]) => (tool, Frame::turned(vector(at)?, vector(normal)?, number(turn)?)?),
         _ => return None,
     };

@@ -220,24 +220,36 @@ impl Tool {
         told
     }
 
-    /// The tool where a stroke is made with it: `digits` behind the point are enough for lengths.
-    #[must_use]
-    pub fn placed(&self, way: Way, spot: &Spot, digits: usize) -> String {
+    /// Where its origin is in a stroke, where its axis of x3 points, and by how many degrees it is turned about that.
+    fn stand(&self, way: Way, spot: &Spot) -> ([f64; 3], [f64; 3], f64) {
         let lowest = self.lowest.unwrap_or(0.0);
         let off = lowest - self.depth.unwrap_or(lowest);
         // A die works from behind: it points out of the workpiece, as a cutter points into it.
         let sign = if way == Way::Cut { 1.0 } else { -1.0 };
-        let at: [f64; 3] = std::array::from_fn(|k| spot.point[k] + sign * off * spot.normal[k]);
+        let at = std::array::from_fn(|k| spot.point[k] + sign * off * spot.normal[k]);
+        let out = spot.normal.map(|v| sign * v);
+        let drawn = spot.along.and_then(|along| Frame::angle(out, along)).map_or(0.0, f64::to_degrees);
+        (at, out, self.turn + (drawn * 100.0).round() / 100.0)
+    }
+
+    /// Where it stands in a stroke.
+    #[must_use]
+    pub fn frame(&self, way: Way, spot: &Spot) -> Frame {
+        let (at, out, turn) = self.stand(way, spot);
+        let turned = if self.round { None } else { Frame::turned(at, out, turn.to_radians()) };
+        turned.unwrap_or_else(|| Frame::upright(at))
+    }
+
+    /// The tool where a stroke is made with it: `digits` behind the point are enough for lengths.
+    #[must_use]
+    pub fn placed(&self, way: Way, spot: &Spot, digits: usize) -> String {
+        let (at, out, turn) = self.stand(way, spot);
         let at = vector(at, digits);
         if self.round {
             return format!("tr_shift({}, {at})", self.text);
         }
-        let out = spot.normal.map(|v| sign * v);
-        let drawn = spot.along.and_then(|along| Frame::angle(out, along)).map_or(0.0, f64::to_degrees);
-        let turn = self.turn + (drawn * 100.0).round() / 100.0;
         let turn = if turn == 0.0 { "0".into() } else { format!("{}*PI/180", number(turn)) };
-        let normal = vector(out, 6);
-        format!("tr_place({}, {at}, {normal}, {turn})", self.text)
+        format!("tr_place({}, {at}, {}, {turn})", self.text, vector(out, 6))
     }
 
     /// A stroke with it, as a statement.
