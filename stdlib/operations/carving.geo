@@ -10,14 +10,14 @@ tr_place((gob/pob) g, (array) p, (array) n, (real) a) =
 
 { The object carved with a cutter: what the cutter holds is taken away. With b > 0 the edge of the cut is rounded, as with sand paper, and nothing
   changes farther than b from the cutter; for cutters whose values are lengths.
-  Example: tr_carve(pob_sphere_d([0, 0, 0], 1), pob_sphere_d([0, 0, 1], 0.4), 0.1) AT (0, 0, 0.6)   // -0.025
+  Example: tr_carve(pob_sphere_d([0, 0, 0], 1), pob_sphere_d([0, 0, 1], 0.4), 1) AT (0, 0, 0.6)   // -0.09
   Source: Pasko and Savchenko 1998 }
 tr_carve((gob/pob) g, (gob/pob) cutter, (real) b) =
   IF b > 0 THEN MIN(g, -cutter) - MAX(b - ABS(g + cutter), 0)**2/(4*b) ELSE MIN(g, -cutter);
 
 { The object chased with a die: what the die holds is added, as when metal is raised from behind. With b > 0 the die goes over into the object
   smoothly, and nothing changes farther than b from it; for dies whose values are lengths.
-  Example: tr_chase(pob_sphere_d([0, 0, 0], 1), pob_sphere_d([0, 0, 1], 0.4), 0) AT (0, 0, 1.4)   // 0
+  Example: tr_chase(pob_sphere_d([0, 0, 0], 1), pob_sphere_d([0, 0, 1], 0.5), 0) AT (0, 0, 1.5)   // 0
   Source: Pasko and Savchenko 1998 }
 tr_chase((gob/pob) g, (gob/pob) die, (real) b) =
   IF b > 0 THEN MAX(g, die) + MAX(b - ABS(g - die), 0)**2/(4*b) ELSE MAX(g, die);

@@ -36,6 +36,29 @@ fn bounded(p: [f64; 4]) -> f64 {
     if rho < 1.0 { 0.3 * (1.0 - rho).powi(3) / (1.0 + rho) } else { 0.0 }
 }
 
+/// The larger of two values, where they differ by less than b mixed by how much they do.
+fn joined(f: f64, g: f64, b: f64) -> f64 {
+    let part = (0.5 + 0.5 * (f - g) / b).clamp(0.0, 1.0);
+    part * f + (1.0 - part) * g + b * part * (1.0 - part)
+}
+
+/// The box of `tr_place`: its third axis along (1, 2, -2), the first one level and turned by 0.7.
+fn placed(p: [f64; 4]) -> f64 {
+    let q = [p[0] - 0.3, p[1] + 0.2, p[2] - 0.1];
+    let along = |axis: [f64; 3]| (0..3).map(|k| q[k] * axis[k]).sum::<f64>();
+    let five = 5.0_f64.sqrt();
+    let (x, y) = (along([-2.0 / five, 1.0 / five, 0.0]), along([2.0 / (3.0 * five), 4.0 / (3.0 * five), five / 3.0]));
+    let (x, y) = turned(x, y, -0.7);
+    let z = along([1.0 / 3.0, 2.0 / 3.0, -2.0 / 3.0]);
+    [(x, 1.0), (y, 0.5), (z, 0.25)].into_iter().map(|(v, half)| and(half - v, half + v)).reduce(and).unwrap_or(0.0)
+}
+
+/// The cone with its tip at -h/2, by the distance from its side and from its top.
+fn cone([x, y, z]: [f64; 3], r: f64, h: f64) -> f64 {
+    let side = ((z + h / 2.0) * r - norm(&[x, y]) * h) / r.hypot(h);
+    side.min(h / 2.0 - z)
+}
+
 /// The fillet of radius r as what lies between the corner and a quarter of a circle, by its defining circle.
 fn round(f: f64, g: f64, r: f64) -> f64 {
     if (f - g).abs() >= r {
@@ -130,6 +153,24 @@ pub const OPERATIONS: &[Case] = &[
             let (f, g) = lengths(p);
             // In the strip g1 is lowered by the depth, beyond it nothing changes, and walls join both.
             (f - 0.2).max(f.min(g.abs() - 0.3)).min(f)
+        },
+        TINY,
+    ),
+    ("tr_carve(C, D, 0)", |p| lengths(p).0.min(-lengths(p).1), TINY),
+    ("tr_carve(C, D, 0.6)", |p| -joined(-lengths(p).0, lengths(p).1, 0.6), TINY),
+    ("tr_chase(C, D, 0)", |p| lengths(p).0.max(lengths(p).1), TINY),
+    ("tr_chase(C, D, 0.6)", |p| joined(lengths(p).0, lengths(p).1, 0.6), TINY),
+    ("tr_place(pob_box([0, 0, 0], [2, 1, 0.5]), [0.3, -0.2, 0.1], [1, 2, -2], 0.7)", placed, 1e-9),
+    ("tr_place(pob_tool_cone(1, 2), [0, 0, 0.5], [0, 0, -3], 0)", |p| cone([p[0], -p[1], 0.5 - p[2]], 1.0, 2.0), TINY),
+    ("pob_tool_cone(0.7, 1.5)", |p| cone([p[0], p[1], p[2]], 0.7, 1.5), TINY),
+    ("pob_tool_ellipsoid(1.2, 0.8, 0.5)", |p| 0.5 - 0.5 * norm(&[p[0] / 1.2, p[1] / 0.8, p[2] / 0.5]), TINY),
+    ("pob_tool_drill(0.7, 1.5)", |p| (0.7 - norm(&[p[0], p[1]])).min(0.75 - p[2].abs()), TINY),
+    (
+        "pob_tool_chisel(1.6, 0.8, 1)",
+        |p| {
+            // Two planes through the edge at x3 = -1/2, each with the normal (1, 0.4), and the ends.
+            let side = (0.4 * (p[2] + 0.5) - p[1].abs()) / norm(&[1.0, 0.4]);
+            side.min(0.5 - p[2]).min(0.8 - p[0].abs())
         },
         TINY,
     ),
