@@ -75,7 +75,7 @@ impl Session {
     fn breaks(&mut self, name: &str, subject: &Subject, centre: Option<&[f64]>) -> Option<crate::source::Span> {
         let axes: Vec<Coordinate> = subject.axes.iter().map(|axis| axis.coordinate).collect();
         let centre = centre.or(subject.centre.as_deref());
-        let question = Question { node: subject.node, axes: &axes, fixed: &subject.fixed, centre, hint: None };
+        let question = Question { node: subject.node, axes: &axes, fixed: &subject.fixed, centre, hint: None, told: false };
         let found = star(&self.graph, question, &self.limits, &self.interrupt).ok()?;
         let node = found.err()?.node()?;
         self.place_of_node(name, subject.node, node)

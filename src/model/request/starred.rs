@@ -166,7 +166,8 @@ fn placed(
         let help = "give one number for each axis, in the order X, Y, Z";
         return Err(Diagnostic::error("wrong-centre", title).category(Category::Usage).help(help));
     }
-    let question = Question { node, axes: &axes, fixed: &fixed, centre, hint: Some(&middle) };
+    let told = route == Route::Star;
+    let question = Question { node, axes: &axes, fixed: &fixed, centre, hint: Some(&middle), told };
     let star = match star(graph, question, limits, interrupt)? {
         Ok(star) => star,
         Err(refusal) if route == Route::Auto => return Ok(Err(Some(refusal))),
