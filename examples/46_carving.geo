@@ -17,7 +17,7 @@ strokes = 0;
 
 { The dish is sunk a little, and its rim stays }
 gob_dish = tr_carve(gob_dish, tr_dish(pob_tool_ellipsoid(1.32, 1.32, 0.12), 0, 0, -0.16), 0.08);
-{ The heart, in three blows }
+{ The heart, in one blow }
 gob_dish = tr_chase(gob_dish, tr_dish(pob_sphere_d([0, 0, 0], 0.3), 0, 0, 0), 0.12);
 strokes = strokes + 2;
 { Twelve petals, each with a vein }
@@ -60,7 +60,7 @@ FOR side = -1 TO 1 STEP 2 DO BEGIN
   gob_head = tr_carve(gob_head, tr_head(pob_tool_ellipsoid(0.13, 0.016, 0.05), [side*0.24, -0.71, 0.5], [side*0.15, -1, 0.3], side*0.1), 0.015);
   gob_head = tr_carve(gob_head, tr_head(pob_tool_ellipsoid(0.12, 0.014, 0.05), [side*0.24, -0.71, 0.385], [side*0.15, -1, -0.2], -side*0.08), 0.015);
   gob_head = tr_carve(gob_head, tr_head(pob_sphere_d([0, 0, 0], 0.028), [side*0.23, -0.71, 0.445], face, 0), 0.01);
-  gob_head = tr_chase(gob_head, tr_head(pob_tool_ellipsoid(0.15, 0.035, 0.05), [side*0.25, -0.72, 0.62], [side*0.35, -1, 0.2], -side*0.2), 0.05);
+  gob_head = tr_chase(gob_head, tr_head(pob_tool_ellipsoid(0.15, 0.035, 0.05), [side*0.25, -0.72, 0.62], [side*0.35, -1, 0.2], side*0.08), 0.05);
   gob_head = tr_chase(gob_head, tr_head(pob_sphere_d([0, 0, 0], 0.13), [side*0.33, -0.54, 0.2], face, 0), 0.14);
   gob_head = tr_chase(gob_head, tr_head(pob_tool_ellipsoid(0.2, 0.11, 0.06), [side*0.66, 0.05, 0.36], [side, -0.35, 0], PI/2), 0.04);
   gob_head = tr_carve(gob_head, tr_head(pob_tool_ellipsoid(0.12, 0.055, 0.06), [side*0.72, 0.02, 0.37], [side, -0.35, 0], PI/2), 0.03);

@@ -1,5 +1,7 @@
 //! From hits to pixels: the light of each ray, what lies behind what, and the mean over a pixel. Casts no rays.
 
+use std::sync::Arc;
+
 use super::paint::Paint;
 use super::palette::{bright, encode, linear};
 use super::raycast::{Air, Style, TOLERANCE, Thing};
@@ -22,11 +24,28 @@ pub(super) struct Brush<'a> {
     things: &'a [Thing],
     air: &'a Air,
     style: Style,
-    /// The background's light, row by row, and the pixels of the rows where nothing is hit.
-    backdrop: Vec<Light>,
-    empty: Vec<[u8; 4]>,
+    ground: Arc<Ground>,
     /// Depths that differ by less are those of one place.
     same: f64,
+}
+
+/// The background's light, row by row, and the pixels of the rows where nothing is hit.
+#[derive(Debug)]
+pub(super) struct Ground {
+    backdrop: Vec<Light>,
+    empty: Vec<[u8; 4]>,
+}
+
+impl Ground {
+    pub(super) fn new(style: &Style) -> Self {
+        let backdrop = backdrop(style);
+        let empty = |light: &Light| {
+            let [r, g, b] = light.map(encode);
+            if style.transparent { [0; 4] } else { [r, g, b, 255] }
+        };
+        let empty = backdrop.iter().map(empty).collect();
+        Self { backdrop, empty }
+    }
 }
 
 /// A tile of pixels, row by row.
@@ -43,15 +62,14 @@ pub(super) struct Pixel {
 
 impl<'a> Brush<'a> {
     pub(super) fn new(scene: Scene, style: &Style, things: &'a [Thing], air: &'a Air) -> Self {
-        let backdrop = backdrop(style);
-        let empty = |light: &Light| {
-            let [r, g, b] = light.map(encode);
-            if style.transparent { [0; 4] } else { [r, g, b, 255] }
-        };
-        let empty = backdrop.iter().map(empty).collect();
+        Self::on(&Arc::new(Ground::new(style)), scene, style, things, air)
+    }
+
+    /// The same on a ground that is there already.
+    pub(super) fn on(ground: &Arc<Ground>, scene: Scene, style: &Style, things: &'a [Thing], air: &'a Air) -> Self {
         let (near, far) = scene.camera.depths(scene.space.lo, scene.space.hi);
         let same = 3.0 * TOLERANCE * (far - near);
-        Self { scene, fine: style.fine(), things, air, style: *style, backdrop, empty, same }
+        Self { scene, fine: style.fine(), things, air, style: *style, ground: Arc::clone(ground), same }
     }
 
     /// The light of each ray of a tile that meets object `k`; empty if none does.
@@ -159,7 +177,7 @@ impl<'a> Brush<'a> {
             for i in 0..columns {
                 let at = |x: usize, y: usize| seen.get((j + y) * across + i + x).copied().flatten();
                 let seen = [at(0, 0), at(corners, 0), at(0, corners), at(corners, corners)];
-                pixels.push(Pixel { rgba: self.mean(&seen, row), edge: differ(&seen, self.backdrop[row]) });
+                pixels.push(Pixel { rgba: self.mean(&seen, row), edge: differ(&seen, self.ground.backdrop[row]) });
             }
         }
         Painted { pixels, hits }
@@ -203,9 +221,9 @@ impl<'a> Brush<'a> {
     /// The mean of what the rays of a pixel see.
     fn mean(&self, seen: &[Seen], row: usize) -> [u8; 4] {
         if seen.iter().all(Option::is_none) {
-            return self.empty[row];
+            return self.ground.empty[row];
         }
-        let behind = self.backdrop[row];
+        let behind = self.ground.backdrop[row];
         let (mut sum, mut covered) = ([0.0_f32; 3], 0.0_f32);
         for seen in seen {
             let (light, cover) = seen.unwrap_or_default();

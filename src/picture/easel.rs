@@ -1,15 +1,18 @@
 //! A picture that stays while its object is worked on: what a change of the object touches is cast anew, all else is kept. The camera, the
 //! space and the light stay as they are. Knows no language, and not what was changed: it is told where.
 
-use rayon::prelude::*;
+use std::sync::Arc;
 
-use super::brush::{Brush, Lit, Painted};
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::brush::{Brush, Ground, Lit, Painted};
 use super::camera::Camera;
 use super::frustum::Frustum;
 use super::image::Image;
-use super::raycast::{Air, Space, Style, TOLERANCE, Thing, side};
-use super::rays::{Aim, Hit, Pattern, Scene, Tile, search_in};
-use super::screen::{PIECE, Reach, Screen, Window};
+use super::raycast::{Air, Space, Style, Thing, side};
+use super::rays::{Aim, Hit, Met, Pattern, Scene, Seed, Tile, search_in};
+use super::screen::{PIECE, Reach, Screen, TILE, Window};
 use super::shade::Lights;
 use super::shadow::Shadows;
 use crate::interrupt::{Cancelled, Interrupt};
@@ -25,19 +28,44 @@ pub struct Easel {
     style: Style,
     /// The lights, and what they see.
     air: Air,
+    ground: Arc<Ground>,
     image: Image,
     /// How many rays met the object in each piece, row by row, and the first and last column and row of those.
     met: Vec<(u64, Option<[[usize; 2]; 2]>)>,
+    /// What the rays of each piece met, if that is kept.
+    kept: Vec<Option<Arc<Kept>>>,
 }
 
-/// What is painted but not yet on the picture.
-struct Patch {
-    from: [usize; 2],
-    size: [usize; 2],
+/// A piece of the picture that is drawn but not yet put on it.
+struct Piece {
+    window: Window,
+    /// The object there, once it was needed.
+    shape: Option<Shape>,
+    /// Which of its tiles are to be looked at anew.
+    touched: Vec<bool>,
+    /// What was known of it.
+    before: Arc<Kept>,
+    met: Met,
+    shares: FxHashMap<usize, Vec<Option<Hit>>>,
     painted: Painted,
     /// The first and last column and row that show something.
     seen: Option<[[usize; 2]; 2]>,
+    counters: Counters,
 }
+
+/// Where the rays of a piece met the object: those through corners or middles, and the further ones of its pixels that show edges.
+#[derive(Debug, Default)]
+struct Kept {
+    met: Met,
+    shares: FxHashMap<usize, Vec<Option<Hit>>>,
+}
+
+/// How exactly depths are found, as a part of their range: so that it does not show which strokes far inside a search has met, and the same
+/// strokes always give the same picture, whatever was made and taken back between.
+const EXACT: f64 = 1e-12;
+
+/// Pixels of pictures that keep what all rays met; larger ones look at whole pieces.
+const MOST_KEPT: usize = 1 << 22;
 
 impl Easel {
     /// An empty picture: everything is still to be drawn. There is no occlusion, which would reach everywhere.
@@ -46,14 +74,16 @@ impl Easel {
         let [width, height] = style.size;
         let lights = Lights::new(camera, style.light, style.fill);
         let shadows = (style.shadow > 0.0).then(|| Shadows::dark(space, lights.key(), side(style)));
-        let screen = Screen { camera: *camera, size: style.size };
+        let screen = Screen { camera: *camera, size: style.size, piece: PIECE };
         Self {
             space,
             camera: *camera,
             style: *style,
             air: Air::under(lights, shadows),
+            ground: Arc::new(Ground::new(style)),
             image: Image::new(width, height, [0; 3]),
             met: vec![(0, None); screen.pieces().iter().product()],
+            kept: vec![None; screen.pieces().iter().product()],
         }
     }
 
@@ -62,14 +92,12 @@ impl Easel {
     /// # Errors
     /// [`Cancelled`] soon after the interrupt was set.
     pub fn draw(&mut self, thing: &Thing, interrupt: &Interrupt) -> Result<Counters, Cancelled> {
+        let shape = |_: Window| Ok(thing.shape.clone());
         if let Some(light) = self.light() {
-            let parts: Vec<_> =
-                light.windows(&[None]).into_iter().map(|window| (window, thing.shape.clone())).collect();
-            self.relight(&parts, interrupt)?;
+            self.relight::<Cancelled>(&light.windows(&[None]), &shape, interrupt)?;
         }
         let windows = self.screen().windows(&[None]);
-        let parts: Vec<_> = windows.into_iter().map(|window| (window, thing.clone())).collect();
-        self.redraw(&parts, interrupt)
+        self.redraw::<Cancelled>(&windows, (thing, &shape), &[None], interrupt)
     }
 
     /// The picture.
@@ -111,13 +139,13 @@ impl Easel {
     /// What is seen, and in how many pixels.
     #[must_use]
     pub fn scene(&self) -> Scene {
-        Scene { camera: self.camera, space: self.space, rays: self.style.size, tile: PIECE / 4 }
+        Scene { camera: self.camera, space: self.space, rays: self.style.size, tile: TILE }
     }
 
     /// The screen of the picture.
     #[must_use]
     pub fn screen(&self) -> Screen {
-        Screen { camera: self.camera, size: self.style.size }
+        Screen { camera: self.camera, size: self.style.size, piece: PIECE }
     }
 
     /// What the key light sees, if there are shadows.
@@ -126,122 +154,172 @@ impl Easel {
         self.air.common().map(Shadows::screen)
     }
 
-    /// Looks again from the key light, at parts of what it sees, each with the object as it is there now. Gives where on the picture the
-    /// light is another one than before. If the work was stopped, nothing has changed.
+    /// Looks again from the key light, at pieces of what it sees, each with the object as it is there now. Gives where on the picture the
+    /// light may be another one than before. If the work was stopped, nothing has changed.
     ///
     /// # Errors
-    /// [`Cancelled`] soon after the interrupt was set.
-    pub fn relight(&mut self, parts: &[(Window, Shape)], interrupt: &Interrupt) -> Result<Vec<Reach>, Cancelled> {
+    /// [`Cancelled`] soon after the interrupt was set; what `shape` fails with.
+    pub fn relight<E: From<Cancelled> + Send>(
+        &mut self,
+        windows: &[Window],
+        shape: &(dyn Fn(Window) -> Result<Shape, E> + Sync),
+        interrupt: &Interrupt,
+    ) -> Result<Vec<Reach>, E> {
         let Some(shadows) = self.air.common() else { return Ok(Vec::new()) };
-        let cast = |(window, shape): &(Window, Shape)| shadows.recast(shape, self.space, *window, interrupt);
-        let patches: Vec<_> = parts.par_iter().map(cast).collect::<Result<_, Cancelled>>()?;
+        let cast = |&window: &Window| Ok(shadows.recast(&shape(window)?, self.space, window, interrupt)?);
+        let patches: Vec<_> = windows.par_iter().map(cast).collect::<Result<_, E>>()?;
         interrupt.tick()?;
         let screen = self.screen();
         let Some(shadows) = self.air.common_mut() else { return Ok(Vec::new()) };
         let hull = |patch| shadows.put(patch, self.space);
-        Ok(patches.into_iter().flatten().filter_map(hull).map(|points| screen.hull(&points)).collect())
+        Ok(patches.into_iter().flat_map(hull).map(|points| screen.hull(&points)).collect())
     }
 
-    /// Draws pieces of the picture anew, each with the object as it is there now. Nothing has changed if the work was stopped.
+    /// Draws pieces of the picture anew, each with the object as it is there now: rays are cast where the object itself may have changed,
+    /// and all of the pieces are lit again. Nothing has changed if the work was stopped. `look` says how it looks, `shape` what it is in a
+    /// piece; that is asked only where rays are cast.
     ///
     /// # Errors
-    /// [`Cancelled`] soon after the interrupt was set.
+    /// [`Cancelled`] soon after the interrupt was set; what `shape` fails with.
     ///
     /// # Panics
     /// If a window is none of [`Screen::windows`].
-    pub fn redraw(&mut self, parts: &[(Window, Thing)], interrupt: &Interrupt) -> Result<Counters, Cancelled> {
-        let steps = |(window, _): &(Window, Thing)| points(&Frustum::new(self.scene()).within(*window));
-        interrupt.begin(2 * parts.iter().map(steps).sum::<u64>());
-        let mut done: Vec<(Vec<Patch>, Counters)> =
-            parts.par_iter().map(|part| self.first(part, interrupt)).collect::<Result<_, Cancelled>>()?;
+    pub fn redraw<E: From<Cancelled> + Send>(
+        &mut self,
+        windows: &[Window],
+        (look, shape): (&Thing, &(dyn Fn(Window) -> Result<Shape, E> + Sync)),
+        changed: &[Reach],
+        interrupt: &Interrupt,
+    ) -> Result<Counters, E> {
+        let steps = |window: &Window| points(&Frustum::new(self.scene()).within(*window));
+        interrupt.begin(2 * windows.iter().map(steps).sum::<u64>());
+        let first = |&window: &Window| self.first(window, (look, shape), changed, interrupt);
+        let mut pieces: Vec<Piece> = windows.par_iter().map(first).collect::<Result<_, E>>()?;
         if self.style.fine() > 1 {
             let width = self.style.size[0];
-            let mut edges = vec![false; width * self.style.size[1]];
-            for Patch { from, size, painted, .. } in done.iter().flat_map(|part| &part.0) {
-                for (k, pixel) in painted.pixels.iter().enumerate() {
-                    edges[(from[1] + k / size[0]) * width + from[0] + k % size[0]] = pixel.edge;
-                }
+            let mut wanted = vec![false; width * self.style.size[1]];
+            for piece in &pieces {
+                piece.wanted().for_each(|[x, y]| wanted[y * width + x] = true);
             }
-            let finish = |((patches, counters), part): (&mut (Vec<Patch>, Counters), &(Window, Thing))| {
-                counters.add(self.second(part, &edges, patches, interrupt)?);
-                Ok(())
-            };
-            done.par_iter_mut().zip(parts).map(finish).collect::<Result<Vec<()>, Cancelled>>()?;
+            let second = |piece: &mut Piece| self.second(piece, (look, shape), &wanted, interrupt);
+            pieces.par_iter_mut().map(second).collect::<Result<Vec<()>, E>>()?;
         }
         interrupt.tick()?;
         let mut counters = Counters::default();
-        for (patches, cost) in done {
-            counters.add(cost);
-            patches.iter().for_each(|patch| self.put(patch));
+        for piece in pieces {
+            self.put(piece, &mut counters);
         }
         Ok(counters)
     }
 
-    /// A part of the picture from rays through corners or middles, piece by piece.
-    fn first(
-        &self,
-        (window, thing): &(Window, Thing),
-        interrupt: &Interrupt,
-    ) -> Result<(Vec<Patch>, Counters), Cancelled> {
-        let brush = Brush::new(self.scene(), &self.style, std::slice::from_ref(thing), &self.air);
-        let pattern = if brush.fine > 1 { Pattern::Corners } else { Pattern::Middles };
-        let aim = Aim { pattern, tolerance: TOLERANCE, normals: true };
-        let paint = |tile: Tile<'_>| {
-            let lit = brush.lit(0, &tile);
-            let across = tile.size[0] + usize::from(brush.fine > 1);
-            let places = lit.iter().enumerate().filter(|(_, lit)| lit.is_some()).map(|(k, _)| {
-                let place = [tile.from[0] + k % across, tile.from[1] + k / across];
-                [0, 1].map(|k| place[k].min(tile.from[k] + tile.size[k] - 1))
-            });
-            let seen = places.map(|place| [place, place]).reduce(joined);
-            (brush.paint(tile.from, tile.size, &[&lit]), seen)
-        };
-        let (tiles, counters) = search_in(&thing.shape, &self.scene(), *window, aim, paint, interrupt)?;
-        let patch = |(from, size, (painted, seen))| Patch { from, size, painted, seen };
-        Ok((tiles.into_iter().map(patch).collect(), counters))
+    /// Where a piece is in the lists of all.
+    fn number(&self, [[left, top], _]: Window) -> usize {
+        top / PIECE * self.screen().pieces()[0] + left / PIECE
     }
 
-    /// The pixels of a part that show edges, from more rays.
-    fn second(
+    fn brush<'a>(&'a self, thing: &'a Thing) -> Brush<'a> {
+        Brush::on(&self.ground, self.scene(), &self.style, std::slice::from_ref(thing), &self.air)
+    }
+
+    /// A piece of the picture from rays through corners or middles.
+    fn first<E: From<Cancelled>>(
         &self,
-        (window, thing): &(Window, Thing),
-        edges: &[bool],
-        patches: &mut [Patch],
+        window: Window,
+        (look, shape): (&Thing, &(dyn Fn(Window) -> Result<Shape, E> + Sync)),
+        changed: &[Reach],
         interrupt: &Interrupt,
-    ) -> Result<Counters, Cancelled> {
-        if patches.iter().all(|patch| patch.painted.pixels.iter().all(|pixel| !pixel.edge)) {
-            return Ok(Counters::default());
+    ) -> Result<Piece, E> {
+        let brush = self.brush(look);
+        let before = self.kept[self.number(window)].clone();
+        let is_new = before.is_none();
+        let before = before.unwrap_or_default();
+        let touched = tiles(window, if is_new { &[None] } else { changed });
+        let pattern = if brush.fine > 1 { Pattern::Corners } else { Pattern::Middles };
+        let aim = Aim { pattern, tolerance: EXACT, normals: true };
+        let mut made = None;
+        let (met, counters) = if touched.contains(&true) {
+            let seed = Seed { touched: &touched, hits: &before.met.1 };
+            search_in(made.insert(shape(window)?), &self.scene(), window, aim, Some(seed), interrupt)?
+        } else {
+            (before.met.clone(), Counters::default())
+        };
+        let size = size(window);
+        let lit = brush.lit(0, &Tile { from: window[0], size, hits: &met.1, places: &met.0 });
+        let across = size[0] + usize::from(brush.fine > 1);
+        let places = (0..lit.len()).filter(|&k| lit[k].is_some()).map(|k| {
+            let place = [k % across, k / across];
+            [0, 1].map(|k| window[0][k] + place[k].min(size[k] - 1))
+        });
+        let seen = places.map(|place| [place, place]).reduce(joined);
+        let painted = brush.paint(window[0], size, &[&lit]);
+        let shares = FxHashMap::default();
+        Ok(Piece { window, shape: made, touched, before, met, shares, painted, seen, counters })
+    }
+
+    /// The pixels of a piece that show edges, from more rays: those of `wanted` are cast, the others are known.
+    fn second<E: From<Cancelled>>(
+        &self,
+        piece: &mut Piece,
+        (look, shape): (&Thing, &(dyn Fn(Window) -> Result<Shape, E> + Sync)),
+        wanted: &[bool],
+        interrupt: &Interrupt,
+    ) -> Result<(), E> {
+        let edges: Vec<usize> = piece.edges().collect();
+        if edges.is_empty() {
+            return Ok(());
         }
-        let brush = Brush::new(self.scene(), &self.style, std::slice::from_ref(thing), &self.air);
-        let aim = Aim { pattern: Pattern::Shares(brush.fine, edges), tolerance: TOLERANCE, normals: true };
-        let shares = |tile: Tile<'_>| brush.shares(0, &tile);
-        let (tiles, counters) = search_in(&thing.shape, &self.scene(), *window, aim, shares, interrupt)?;
-        let nothing: Vec<Lit> = vec![None; brush.fine * brush.fine];
-        for Patch { from, size, painted, .. } in &mut *patches {
-            for (k, pixel) in painted.pixels.iter_mut().enumerate().filter(|(_, pixel)| pixel.edge) {
-                pixel.rgba = brush.touch_up(&[&nothing], 0, from[1] + k / size[0]);
+        let brush = self.brush(look);
+        let (rays, size, from) = (brush.fine * brush.fine, size(piece.window), piece.window[0]);
+        if piece.wanted().next().is_some() {
+            let shape = match piece.shape.take() {
+                Some(shape) => shape,
+                None => shape(piece.window)?,
+            };
+            let aim = Aim { pattern: Pattern::Shares(brush.fine, wanted), tolerance: EXACT, normals: true };
+            let (met, cost) = search_in(&shape, &self.scene(), piece.window, aim, None, interrupt)?;
+            piece.counters.add(cost);
+            for (places, hits) in met.0.chunks_exact(rays).zip(met.1.chunks_exact(rays)) {
+                let [x, y] = [0, 1].map(|k| places[0][k] as usize - from[k]);
+                piece.shares.insert(y * size[0] + x, hits.to_vec());
             }
         }
-        let width = self.style.size[0];
-        for (place, lit) in tiles.into_iter().flat_map(|(.., shares)| shares) {
-            let at = [place % width, place / width];
-            let holds =
-                |patch: &&mut Patch| (0..2).all(|k| (patch.from[k]..patch.from[k] + patch.size[k]).contains(&at[k]));
-            let Some(patch) = patches.iter_mut().find(holds) else { continue };
-            patch.painted.hits += lit.iter().flatten().count() as u64;
-            let k = (at[1] - patch.from[1]) * patch.size[0] + at[0] - patch.from[0];
-            patch.painted.pixels[k].rgba = brush.touch_up(&[&lit], 0, at[1]);
+        let is_wanted = |&k: &usize| wanted[(from[1] + k / size[0]) * self.style.size[0] + from[0] + k % size[0]];
+        let nothing: Vec<Lit> = vec![None; rays];
+        let (mut places, mut hits) = (Vec::new(), Vec::new());
+        for &k in &edges {
+            if !is_wanted(&k)
+                && let Some(known) = piece.before.shares.get(&k)
+            {
+                piece.shares.insert(k, known.clone());
+            }
+            let known = piece.shares.entry(k).or_insert_with(|| vec![None; rays]);
+            let [x, y] = [from[0] + k % size[0], from[1] + k / size[0]].map(|v| v as f64);
+            let part = |s: usize| (s as f64 + 0.5) / brush.fine as f64;
+            places.extend((0..rays).map(|s| [x + part(s % brush.fine), y + part(s / brush.fine)]));
+            hits.extend_from_slice(known);
+            piece.painted.pixels[k].rgba = brush.touch_up(&[&nothing], 0, from[1] + k / size[0]);
         }
-        Ok(counters)
+        let shares = brush.shares(0, &Tile { from, size, hits: &hits, places: &places });
+        for (place, lit) in shares {
+            let [x, y] = [place % self.style.size[0], place / self.style.size[0]];
+            piece.painted.hits += lit.iter().flatten().count() as u64;
+            piece.painted.pixels[(y - from[1]) * size[0] + x - from[0]].rgba = brush.touch_up(&[&lit], 0, y);
+        }
+        Ok(())
     }
 
-    fn put(&mut self, patch: &Patch) {
-        let Patch { from, size, painted, seen } = patch;
-        let piece = from[1] / PIECE * self.screen().pieces()[0] + from[0] / PIECE;
-        self.met[piece] = (painted.hits, *seen);
+    fn put(&mut self, piece: Piece, counters: &mut Counters) {
+        let number = self.number(piece.window);
+        let Piece { window: [from, to], painted, seen, met, shares, .. } = piece;
+        counters.add(piece.counters);
+        self.met[number] = (painted.hits, seen);
+        let across = to[0] - from[0];
         for (k, pixel) in painted.pixels.iter().enumerate() {
-            let at = (from[1] + k / size[0]) * self.style.size[0] + from[0] + k % size[0];
+            let at = (from[1] + k / across) * self.style.size[0] + from[0] + k % across;
             self.image.rgba[4 * at..][..4].copy_from_slice(&pixel.rgba);
+        }
+        if self.style.size[0] * self.style.size[1] <= MOST_KEPT {
+            self.kept[number] = Some(Arc::new(Kept { met, shares }));
         }
     }
 
@@ -263,17 +341,55 @@ impl Easel {
         marked[pixel[1] * scene.rays[0] + pixel[0]] = true;
         let from = pixel.map(|v| v / PIECE * PIECE);
         let window = [from, [0, 1].map(|k| (from[k] + PIECE).min(scene.rays[k]))];
-        let aim = Aim { pattern: Pattern::Shares(1, &marked), tolerance: 1e-12, normals: true };
-        let first = |tile: Tile<'_>| tile.hits.iter().flatten().next().copied();
-        let (tiles, _) = search_in(&thing.shape, &scene, window, aim, first, interrupt)?;
+        let aim = Aim { pattern: Pattern::Shares(1, &marked), tolerance: EXACT, normals: true };
+        let ((_, hits), _) = search_in(&thing.shape, &scene, window, aim, None, interrupt)?;
         interrupt.tick()?;
-        let hit: Option<Hit> = tiles.into_iter().find_map(|(.., hit)| hit);
+        let hit: Option<Hit> = hits.into_iter().flatten().next();
         let (start, direction) = scene.through(pixel.map(|v| v as f64 + 0.5));
         let point = |hit: &Hit| {
             std::array::from_fn(|k| (start[k] + hit.depth * direction[k]).clamp(self.space.lo[k], self.space.hi[k]))
         };
         Ok(hit.map(|hit| (point(&hit), hit.normal)))
     }
+}
+
+impl Piece {
+    /// Its pixels that show edges, row by row.
+    fn edges(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.painted.pixels.len()).filter(|&k| self.painted.pixels[k].edge)
+    }
+
+    /// The pixels of the picture that are to be looked at with more rays: all that show edges of each tile that was touched, or of which
+    /// one was not looked at before.
+    fn wanted(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let ([from, _], size) = (self.window, size(self.window));
+        let tile = move |k: usize| k / size[0] / TILE * size[0].div_ceil(TILE) + k % size[0] / TILE;
+        let mut wanted = self.touched.clone();
+        self.edges().filter(|k| !self.before.shares.contains_key(k)).for_each(|k| wanted[tile(k)] = true);
+        let edges = self.edges().filter(move |&k| wanted[tile(k)]);
+        edges.map(move |k| [from[0] + k % size[0], from[1] + k / size[0]])
+    }
+}
+
+fn size([from, to]: Window) -> [usize; 2] {
+    [to[0] - from[0], to[1] - from[1]]
+}
+
+/// Which tiles of a piece some things may reach into, row by row.
+fn tiles(window: Window, reaches: &[Reach]) -> Vec<bool> {
+    let [columns, rows] = size(window).map(|n| n.div_ceil(TILE));
+    let mut touched = vec![reaches.contains(&None); columns * rows];
+    for [least, most] in reaches.iter().flatten() {
+        let ends = |k: usize, count: usize| {
+            let tile = |v: f64| ((v - window[0][k] as f64) / TILE as f64).floor().clamp(-1.0, count as f64) as isize;
+            let [first, last] = [tile(least[k] - 1.5), tile(most[k] + 1.5)];
+            first.max(0) as usize..(last + 1).clamp(0, count as isize) as usize
+        };
+        for row in ends(1, rows) {
+            ends(0, columns).for_each(|column| touched[row * columns + column] = true);
+        }
+    }
+    touched
 }
 
 /// The hull of two ranges of pixels.

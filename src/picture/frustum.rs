@@ -20,6 +20,8 @@ pub(super) struct Frustum {
     slack: f64,
     /// The first and one past the last column and row of rays that are cast.
     window: [[usize; 2]; 2],
+    /// Whether what is found is kept elsewhere.
+    forgets: bool,
 }
 
 impl Frustum {
@@ -34,12 +36,12 @@ impl Frustum {
         let size =
             (0..3).map(|k| lo[k].abs().max(hi[k].abs()).max(scene.camera.eye[k].abs())).fold(far.abs(), f64::max);
         let window = [[0; 2], scene.rays];
-        Self { scene, near, far, cells: cells.next_multiple_of(LEAF_DEPTH), slack: 1e-13 * size, window }
+        Self { scene, near, far, cells: cells.next_multiple_of(LEAF_DEPTH), slack: 1e-13 * size, window, forgets: false }
     }
 
     /// The same for a part of the picture: its first column and row, and one past its last ones; it begins at multiples of four tiles.
     pub(super) fn within(self, window: [[usize; 2]; 2]) -> Self {
-        Self { window, ..self }
+        Self { window, forgets: true, ..self }
     }
 
     pub(super) fn depth(&self, cell: usize) -> f64 {
@@ -78,7 +80,7 @@ impl Lattice for Frustum {
 
     fn tell(&self, to: &mut Digest) -> bool {
         to.shown(&self.scene);
-        true
+        !self.forgets
     }
 
     fn bounds(&self, block: &Block, out: &mut [Interval]) {

@@ -19,7 +19,7 @@ use crate::surface::sampler::{Counters, Sampler};
 use crate::vm::{Program, Shape};
 
 pub use algebraic::cast_on;
-pub use search::{search_in, search_on};
+pub use search::{Met, Seed, search_in, search_on};
 
 use super::camera::Camera;
 use super::frustum::{Frustum, Ray};
@@ -206,6 +206,8 @@ struct Caster<'a, T, F> {
     /// Whether its hits are to be kept for the next time, and those.
     keeps: bool,
     kept: Option<Arc<Hits>>,
+    /// What is known before.
+    seed: Option<Seed<'a>>,
 }
 
 /// Where the rays of a task met the object.
@@ -244,6 +246,7 @@ impl<'a, T, F> Caster<'a, T, F> {
             result: None,
             keeps,
             kept: None,
+            seed: None,
         }
     }
 
@@ -259,10 +262,15 @@ impl<'a, T, F> Caster<'a, T, F> {
         for (ray, place) in self.places.iter().enumerate() {
             // A corner at the right or the lower edge belongs to the last cell before it.
             let cell = |k: usize| (place[k] as usize - self.from[k]).min(self.size[k] - 1);
-            self.tiles[cell(1) / tile * across + cell(0) / tile].push(ray);
+            let at = cell(1) / tile * across + cell(0) / tile;
+            if self.seed.is_none_or(|seed| seed.touched[at]) {
+                self.tiles[at].push(ray);
+            }
         }
         self.rays.extend(self.places.iter().map(|&place| self.frustum.ray(place)));
+        self.hits.extend_from_slice(self.seed.map_or(&[], |seed| seed.hits));
         self.hits.resize(self.rays.len(), None);
+        self.tiles.iter().flatten().for_each(|&ray| self.hits[ray] = None);
         self.known.resize(self.rays.len(), (f64::NAN, f64::NAN));
     }
 

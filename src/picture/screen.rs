@@ -3,8 +3,11 @@
 use super::camera::Camera;
 use super::raycast::Space;
 
-/// Pixels along each side of the pieces that a picture is redrawn in: those that rays are cast in together.
+/// Pixels along each side of the pieces that a picture is redrawn in.
 pub const PIECE: usize = 32;
+
+/// Pixels along each side of the smallest tile.
+pub const TILE: usize = 8;
 
 /// A part of a picture: its first column and row, and one past its last ones.
 pub type Window = [[usize; 2]; 2];
@@ -20,6 +23,8 @@ pub struct Screen {
     pub camera: Camera,
     /// Pixels in a row and in a column.
     pub size: [usize; 2],
+    /// Pixels along each side of its pieces, a multiple of those of the smallest tile.
+    pub piece: usize,
 }
 
 impl Screen {
@@ -46,7 +51,7 @@ impl Screen {
     /// Pieces in a row and in a column.
     #[must_use]
     pub fn pieces(&self) -> [usize; 2] {
-        self.size.map(|n| n.div_ceil(PIECE))
+        self.size.map(|n| n.div_ceil(self.piece))
     }
 
     /// The pieces of the screen that some things reach into, row by row; all of them if one of those may be anywhere.
@@ -57,7 +62,7 @@ impl Screen {
         for [from, to] in reaches.iter().flatten() {
             // A ray through the common corner of two pixels belongs to both.
             let ends = |k: usize, count: usize| {
-                let piece = |v: f64| (v / PIECE as f64).floor().clamp(-1.0, count as f64) as isize;
+                let piece = |v: f64| (v / self.piece as f64).floor().clamp(-1.0, count as f64) as isize;
                 let [first, last] = [piece(from[k] - 1.5), piece(to[k] + 1.5)];
                 first.max(0) as usize..(last + 1).clamp(0, count as isize) as usize
             };
@@ -67,8 +72,8 @@ impl Screen {
             }
         }
         let window = |piece: usize| {
-            let from = [piece % columns * PIECE, piece / columns * PIECE];
-            [from, [0, 1].map(|k| (from[k] + PIECE).min(self.size[k]))]
+            let from = [piece % columns * self.piece, piece / columns * self.piece];
+            [from, [0, 1].map(|k| (from[k] + self.piece).min(self.size[k]))]
         };
         (0..marked.len()).filter(|&piece| marked[piece]).map(window).collect()
     }

@@ -1,10 +1,12 @@
 //! Where the key light reaches: the depths at which its parallel rays meet the object first. Evaluates nothing after it is made.
 
+use std::collections::BTreeMap;
+
 use super::camera::Camera;
 use super::extent::Extent;
 use super::raycast::Space;
-use super::rays::{Aim, Hit, Pattern, Scene, Tile, cast_on, search_in};
-use super::screen::{PIECE, Screen, Window};
+use super::rays::{Aim, Hit, Pattern, Scene, cast_on, search_in};
+use super::screen::{Screen, TILE, Window};
 use crate::interrupt::{Cancelled, Interrupt};
 use crate::surface::sampler::Counters;
 use crate::vm::Shape;
@@ -21,6 +23,25 @@ pub struct Shadows {
 
 /// A part of what the light sees: first column and row, columns and rows, depths.
 pub(super) type Patch = ([usize; 2], [usize; 2], Vec<f32>);
+
+/// Rays along each side of a group in which changes are gathered.
+const GROUP: usize = 8;
+
+/// Rays that have changed: the first and last column and row, and between which depths.
+struct Changed {
+    least: [usize; 2],
+    most: [usize; 2],
+    near: f64,
+    far: f64,
+}
+
+impl Changed {
+    fn join(&mut self, other: &Self) {
+        (0..2).for_each(|k| self.least[k] = self.least[k].min(other.least[k]));
+        (0..2).for_each(|k| self.most[k] = self.most[k].max(other.most[k]));
+        (self.near, self.far) = (self.near.min(other.near), self.far.max(other.far));
+    }
+}
 
 /// Rays around a point over which the edge of a shadow is softened.
 const SOFT: f64 = 2.5;
@@ -43,7 +64,7 @@ impl Shadows {
 
     /// What the light sees.
     pub(super) fn screen(&self) -> Screen {
-        Screen { camera: self.camera, size: [self.side; 2] }
+        Screen { camera: self.camera, size: [self.side; 2], piece: 2 * TILE }
     }
 
     /// The depths in a part of what the light sees, piece by piece, found by a search; they are still to be put in.
@@ -53,37 +74,37 @@ impl Shadows {
         space: Space,
         window: Window,
         interrupt: &Interrupt,
-    ) -> Result<Vec<Patch>, Cancelled> {
-        let scene = Scene { camera: self.camera, space, rays: [self.side; 2], tile: PIECE / 4 };
+    ) -> Result<Patch, Cancelled> {
+        let scene = Scene { camera: self.camera, space, rays: [self.side; 2], tile: TILE };
         let aim = Aim { pattern: Pattern::Middles, tolerance: 0.05 / self.side as f64, normals: false };
-        let depth = |hit: &Option<Hit>| hit.map_or(f32::INFINITY, |hit| hit.depth as f32);
-        let depths = |tile: Tile<'_>| tile.hits.iter().map(depth).collect::<Vec<f32>>();
-        Ok(search_in(shape, &scene, window, aim, depths, interrupt)?.0)
+        let depth = |hit: Option<Hit>| hit.map_or(f32::INFINITY, |hit| hit.depth as f32);
+        let ((_, hits), _) = search_in(shape, &scene, window, aim, None, interrupt)?;
+        let size = [0, 1].map(|k| window[1][k] - window[0][k]);
+        Ok((window[0], size, hits.into_iter().map(depth).collect()))
     }
 
-    /// Puts depths in. Gives the corners of a hull of all points of the space whose light that changes, if it changes any.
-    pub(super) fn put(&mut self, (from, size, mut depths): Patch, space: Space) -> Option<Vec<[f64; 3]>> {
+    /// Puts depths in. Gives for each group of rays of which some have changed the corners of a hull of all points of the space whose light
+    /// that may change.
+    pub(super) fn put(&mut self, (from, size, mut depths): Patch, space: Space) -> Vec<Vec<[f64; 3]>> {
         // A piece in which nothing is met says so by holding nothing.
         depths.resize(size[0] * size[1], f32::INFINITY);
-        let (mut least, mut most) = ([usize::MAX; 2], [0; 2]);
         let (near, far) = self.camera.depths(space.lo, space.hi);
-        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut groups: BTreeMap<[usize; 2], Changed> = BTreeMap::new();
         for (k, &new) in depths.iter().enumerate() {
             let at = [from[0] + k % size[0], from[1] + k / size[0]];
             let old = std::mem::replace(&mut self.depths[at[1] * self.side + at[0]], new);
             if old.to_bits() != new.to_bits() {
-                (0..2).for_each(|axis| least[axis] = least[axis].min(at[axis]));
-                (0..2).for_each(|axis| most[axis] = most[axis].max(at[axis]));
-                for depth in [old, new].map(|depth| f64::from(depth).clamp(near, far)) {
-                    range = [range[0].min(depth), range[1].max(depth)];
-                }
+                let [old, new] = [old, new].map(|depth| f64::from(depth).clamp(near, far));
+                let here = Changed { least: at, most: at, near: old.min(new), far: old.max(new) };
+                groups.entry(at.map(|v| v / GROUP)).and_modify(|all| all.join(&here)).or_insert(here);
             }
         }
-        (least[0] <= most[0]).then(|| self.hull(least, most, range))
+        groups.into_values().map(|changed| self.hull(&changed)).collect()
     }
 
     /// The corners of what is behind some rays between two depths, and as far around it as a point looks for its light.
-    fn hull(&self, least: [usize; 2], most: [usize; 2], [near, far]: [f64; 2]) -> Vec<[f64; 3]> {
+    fn hull(&self, &Changed { least, most, near, far }: &Changed) -> Vec<[f64; 3]> {
+        // As `lit` moves a point and looks around it, and one more.
         let around = (2.0 * SOFT + 2.0) * self.texel;
         let corner = |n: usize| {
             let place = |axis: usize, k: usize| {
@@ -91,7 +112,7 @@ impl Shadows {
                 (2.0 * at / self.side as f64 - 1.0) * self.camera.base[axis] + if k == 0 { -around } else { around }
             };
             let (x, y) = (place(0, n & 1), -place(1, n >> 1 & 1));
-            let depth = if n & 4 == 0 { near - around } else { far + around };
+            let depth = if n & 4 == 0 { near } else { far + (SOFT + 2.5) * self.texel };
             let Camera { eye, right, up, forward, .. } = self.camera;
             std::array::from_fn(|k| eye[k] + x * right[k] + y * up[k] + depth * forward[k])
         };

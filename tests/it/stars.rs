@@ -285,7 +285,6 @@ const POLYNOMIAL: &[&str] = &[
     "x1*x2*x3",
     "1 - (SQRT(x1**2 + x2**2) - 0.4)**2 - x3**2",
     "0.15 - (SQRT(x1**2 + x2**2) - 0.2)**2 - x3**2",
-    "x1*x2*x3*(x1 - x3)",
 ];
 
 /// No ray's depth is apart by more than 1e-6 from that of the search, but where a ray merely touches the object.

@@ -6,7 +6,8 @@ use crate::diagnostic::Diagnostic;
 use crate::model::request::cancelled;
 use crate::model::session::Session;
 use crate::number::{Algebra, Binary, Unary};
-use crate::picture::raycast::Space;
+use crate::picture::raycast::{Space, Thing};
+use crate::picture::screen::meets;
 use crate::surface::sampler::Sampler;
 use crate::surface::space::reach;
 use crate::vm::{Demand, Program};
@@ -45,7 +46,8 @@ impl Carving {
         }
         let pixel = at.map(|v| v as usize);
         let window = [pixel, pixel.map(|v| v + 1)];
-        let thing = self.thing(session, window)?;
+        let shape = self.shape(session, |s| meets(&s.seen_near, window))?;
+        let thing = Thing::opaque(shape, self.studio.paint.clone());
         let hit = self.easel.pick(&thing, pixel, &session.interrupt)?;
         let Some((point, normal)) = hit else { return Err(errors::missed(self.name(), pixel, self.seen())) };
         Ok(Spot { point, normal, along: None })
@@ -120,15 +122,16 @@ impl Carving {
         let found = self.tool_space(session, way, spot)?;
         let space = self.studio.space;
         let within = |s: &Stroke| (0..3).all(|k| s.near.lo[k] <= found.hi[k] && found.lo[k] <= s.near.hi[k]);
-        let chain: Vec<_> = self.strokes.iter().filter(|s| within(s)).map(|s| s.nodes).collect();
         let limit = session.limits.program_operations;
-        let too_large = || vec![too_large(&self.studio.name, "too many operations")];
-        let object = self.local.chain(&session.graph, self.base.1, &chain, limit).ok_or_else(too_large)?;
+        let name = self.studio.name.clone();
+        let too_large = || vec![too_large(&name, "too many operations")];
+        let base = self.base_here(session).map_err(|told| vec![told])?;
         let tool = self.local.take(&session.graph, tool, limit).ok_or_else(too_large)?;
-        let graph = self.local.graph();
+        let links = self.strokes.iter().filter(|s| within(s)).map(|s| &s.link);
+        let (mut graph, object, tool) = self.local.chain(base, links, Some(tool));
         let object = if way == Way::Cut { object } else { graph.unary(Unary::Neg, object) };
-        let both = graph.binary(Binary::Min, object, tool);
-        let program = Program::compile(graph, both, &self.studio.inputs, Demand::Sign, &session.limits);
+        let both = graph.binary(Binary::Min, object, tool.unwrap_or(object));
+        let program = Program::compile(&graph, both, &self.studio.inputs, Demand::Sign, &session.limits);
         let program = Arc::new(program.map_err(|_| too_large())?);
         let axis = |k: usize| (found.lo[k].max(space.lo[k]), found.hi[k].min(space.hi[k]));
         let ranges: Vec<(f64, f64)> =

@@ -1,148 +1,156 @@
-//! The object near one place: the workpiece with those strokes alone that reach there, in a graph of its own, so that what a stroke costs
-//! goes with its neighbours and not with all that were made before. Knows no language.
+//! The object near one place: the workpiece with those strokes alone that reach there, in a small graph, so that what a stroke costs goes with
+//! its neighbours and not with all that were made before. Knows no language.
 
 use rustc_hash::FxHashMap;
 
 use crate::field::expand::expand;
 use crate::field::{Graph, Node, NodeId};
 
-/// Nodes that chains may leave behind before the graph is made anew.
-const LEFT_BEHIND: usize = 1 << 16;
-
-/// A small graph: the workpiece, the tools, and the chains that were asked for.
+/// The workpiece and the tools of its strokes, without maps: what the small graphs are made of.
 #[derive(Debug, Default)]
 pub struct Local {
-    graph: Graph,
-    /// What a node of the session's graph is here.
+    store: Graph,
+    /// What a node of the session's graph is in the store.
     known: FxHashMap<NodeId, NodeId>,
-    /// Nodes when it was last made anew.
-    settled: usize,
 }
 
-/// A node's own number for what it is here, while a chain goes through it.
-enum Step {
-    Enter(NodeId),
-    Leave(NodeId),
+/// What a stroke does with the object before it: operations, each of what stands before it in the list, of the object, and of nodes of the
+/// store.
+#[derive(Clone, Debug, Default)]
+pub struct Link(Vec<(Node, Vec<From>)>);
+
+/// An operand of a link.
+#[derive(Clone, Copy, Debug)]
+enum From {
+    /// The object before.
+    Before,
+    /// What stands at that place of the list.
+    Own(usize),
+    /// A node of the store.
+    Store(NodeId),
 }
 
 impl Local {
-    /// The graph that its answers are nodes of.
-    pub fn graph(&mut self) -> &mut Graph {
-        &mut self.graph
-    }
-
-    /// Forgets everything, since the session's graph is another one or too much was left behind.
+    /// Forgets everything, since the session's graph is another one.
     pub fn clear(&mut self) {
         *self = Self::default();
     }
 
-    /// The workpiece with those strokes: for each the node of the object before it and the one after it. `None` if it is too large.
-    pub fn chain(&mut self, from: &Graph, base: NodeId, strokes: &[(NodeId, NodeId)], limit: usize) -> Option<NodeId> {
-        if self.graph.len() > LEFT_BEHIND + 2 * self.settled {
-            self.clear();
-        }
-        let mut chain = self.take(from, base, limit)?;
-        if self.settled == 0 {
-            self.settled = self.graph.len();
-        }
-        for &(before, after) in strokes {
-            chain = self.graft(from, after, (before, chain), limit)?;
-        }
-        Some(chain)
-    }
-
-    /// A node that stands for itself.
+    /// A node of the session's graph in the store; `None` if it is too large.
     pub fn take(&mut self, from: &Graph, root: NodeId, limit: usize) -> Option<NodeId> {
         if let Some(&here) = self.known.get(&root) {
             return Some(here);
         }
-        // Maps are expanded once, as a compiler does it.
-        let here = match expand(from, &[root], limit).ok()? {
-            Some((expanded, roots)) => self.copy(&expanded, roots[0], &mut FxHashMap::default()),
-            None => {
-                let mut known = std::mem::take(&mut self.known);
-                let here = self.copy(from, root, &mut known);
-                self.known = known;
-                here
-            }
+        // Maps are expanded once, as a compiler does it, in a graph that holds nothing else.
+        let mut alone = Graph::new();
+        let root_alone = copy(from, root, &mut alone, &mut FxHashMap::default());
+        let here = match expand(&alone, &[root_alone], limit).ok()? {
+            Some((expanded, roots)) => copy(&expanded, roots[0], &mut self.store, &mut FxHashMap::default()),
+            None => copy(&alone, root_alone, &mut self.store, &mut FxHashMap::default()),
         };
         self.known.insert(root, here);
         Some(here)
     }
 
-    /// Copies a node and what it reads.
-    fn copy(&mut self, from: &Graph, root: NodeId, known: &mut FxHashMap<NodeId, NodeId>) -> NodeId {
-        let mut open = vec![root];
-        while let Some(&node) = open.last() {
-            let waiting = open.len();
-            if !known.contains_key(&node) {
-                from.node(node).for_each_operand(|e| {
-                    if !known.contains_key(&e) {
-                        open.push(e);
-                    }
-                });
+    /// What the node `after` does with the node `before`; `None` if that is too large.
+    pub fn link(&mut self, from: &Graph, (before, after): (NodeId, NodeId), limit: usize) -> Option<Link> {
+        // What each node on the way is; nothing is said of those that are still open.
+        let mut what: FxHashMap<NodeId, From> = FxHashMap::default();
+        what.insert(before, From::Before);
+        let (mut link, mut open) = (Link::default(), vec![(after, false)]);
+        while let Some((node, is_ready)) = open.pop() {
+            if what.contains_key(&node) {
+                continue;
             }
-            if open.len() == waiting {
-                open.pop();
-                if !known.contains_key(&node) {
-                    let copied = with_operands(from.node(node), |e| known[&e]);
-                    known.insert(node, self.graph.intern(copied));
+            // Nodes are numbered after what they read, and what is mapped is a tool: neither holds the object.
+            if node < before || matches!(from.node(node), Node::Map(..)) || self.known.contains_key(&node) {
+                what.insert(node, From::Store(self.take(from, node, limit)?));
+            } else if is_ready {
+                let mut operands = Vec::new();
+                from.node(node).for_each_operand(|e| operands.extend(what.get(&e)));
+                if operands.iter().all(|operand| matches!(operand, From::Store(_))) {
+                    what.insert(node, From::Store(self.take(from, node, limit)?));
+                } else {
+                    what.insert(node, From::Own(link.0.len()));
+                    link.0.push((from.node(node).clone(), operands));
                 }
+            } else {
+                open.push((node, true));
+                from.node(node).for_each_operand(|e| open.push((e, false)));
             }
         }
-        known[&root]
+        Some(link)
     }
 
-    /// The node `root` with another node in the place of `before`.
-    fn graft(&mut self, from: &Graph, root: NodeId, (before, chain): (NodeId, NodeId), limit: usize) -> Option<NodeId> {
-        let mut here: FxHashMap<NodeId, NodeId> = FxHashMap::default();
-        here.insert(before, chain);
-        let mut through: FxHashMap<NodeId, bool> = FxHashMap::default();
-        through.insert(before, true);
-        let mut open = vec![Step::Enter(root)];
-        while let Some(step) = open.pop() {
-            match step {
-                Step::Enter(node) if through.contains_key(&node) || self.known.contains_key(&node) => {}
-                // What is mapped is a tool: it does not hold the workpiece.
-                Step::Enter(node) if matches!(from.node(node), Node::Map(..)) => {
-                    self.take(from, node, limit)?;
-                }
-                Step::Enter(node) => {
-                    open.push(Step::Leave(node));
-                    from.node(node).for_each_operand(|e| open.push(Step::Enter(e)));
-                }
-                Step::Leave(node) => {
-                    let mut holds = false;
-                    from.node(node).for_each_operand(|e| holds |= through.get(&e).copied().unwrap_or(false));
-                    through.insert(node, holds);
-                    let known = &self.known;
-                    let copied = with_operands(from.node(node), |e| {
-                        here.get(&e).or_else(|| known.get(&e)).copied().unwrap_or(e)
-                    });
-                    let new = self.graph.intern(copied);
-                    if holds {
-                        here.insert(node, new)
-                    } else {
-                        self.known.insert(node, new)
-                    };
-                }
+    /// The workpiece, a node of the store, with those strokes, as a graph of its own; and a further node of the store in it.
+    pub fn chain<'l>(
+        &self,
+        base: NodeId,
+        links: impl Iterator<Item = &'l Link>,
+        further: Option<NodeId>,
+    ) -> (Graph, NodeId, Option<NodeId>) {
+        let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
+        let mut chain = copy(&self.store, base, &mut graph, &mut known);
+        let mut own: Vec<NodeId> = Vec::new();
+        for Link(operations) in links {
+            own.clear();
+            for (operation, operands) in operations {
+                let mut operands = operands.iter().map(|operand| match operand {
+                    From::Before => chain,
+                    From::Own(place) => own[*place],
+                    From::Store(node) => copy(&self.store, *node, &mut graph, &mut known),
+                });
+                let operands: Vec<NodeId> = operands.by_ref().collect();
+                let mut next = operands.into_iter();
+                let new = with_operands(operation, |e| next.next().unwrap_or(e));
+                own.push(graph.intern(new));
             }
+            chain = own.last().copied().unwrap_or(chain);
         }
-        here.get(&root).or_else(|| self.known.get(&root)).copied()
+        let further = further.map(|node| copy(&self.store, node, &mut graph, &mut known));
+        (graph, chain, further)
     }
 }
 
-/// The same operation of other operands.
+/// Copies a node and what it reads into another graph; `known` says what is there already.
+fn copy(from: &Graph, root: NodeId, to: &mut Graph, known: &mut FxHashMap<NodeId, NodeId>) -> NodeId {
+    if let Some(&there) = known.get(&root) {
+        return there;
+    }
+    let mut open = vec![root];
+    while let Some(&node) = open.last() {
+        let waiting = open.len();
+        from.node(node).for_each_operand(|e| {
+            if !known.contains_key(&e) {
+                open.push(e);
+            }
+        });
+        if open.len() == waiting {
+            open.pop();
+            let copied = with_operands(from.node(node), |e| known[&e]);
+            known.insert(node, to.intern(copied));
+        }
+    }
+    known[&root]
+}
+
+/// The same operation of other operands, which are asked for in the order of [`Node::for_each_operand`].
 fn with_operands(node: &Node, mut of: impl FnMut(NodeId) -> NodeId) -> Node {
     match node {
         Node::Constant(_) | Node::Coordinate(_) => node.clone(),
         Node::Unary(op, a) => Node::Unary(*op, of(*a)),
-        Node::Binary(op, a, b) => Node::Binary(*op, of(*a), of(*b)),
+        Node::Binary(op, a, b) => {
+            let a = of(*a);
+            Node::Binary(*op, a, of(*b))
+        }
         Node::Ternary(op, operands) => Node::Ternary(*op, operands.map(of)),
         Node::Leaf(leaf, arguments) => Node::Leaf(leaf.clone(), arguments.iter().map(|e| of(*e)).collect()),
         Node::Region(region, output, arguments) => {
             Node::Region(region.clone(), *output, arguments.iter().map(|e| of(*e)).collect())
         }
-        Node::Map(body, mapping) => Node::Map(of(*body), mapping.iter().map(|(c, e)| (*c, of(*e))).collect()),
+        Node::Map(body, mapping) => {
+            let body = of(*body);
+            Node::Map(body, mapping.iter().map(|(c, e)| (*c, of(*e))).collect())
+        }
     }
 }

@@ -20,6 +20,7 @@ use rustc_hash::FxHashMap;
 use crate::diagnostic::{Category, Diagnostic};
 use crate::export;
 use crate::field::{Coordinate, NodeId};
+use crate::limits::Limits;
 use crate::number::{Algebra, Binary};
 use crate::picture::easel::Easel;
 use crate::picture::raycast::{Space, Thing};
@@ -291,13 +292,14 @@ impl Carving {
         self.add(session, forms)?;
         touched.extend(self.strokes[kept..].iter().map(|s| (s.reach, s.seen)));
         let mut seen: Vec<Reach> = touched.iter().map(|of| of.1).collect();
+        let changed = seen.clone();
         if let Some(light) = self.easel.light() {
             let lit: Vec<Reach> = touched.iter().map(|of| light.reach(of.0)).collect();
             seen.extend(self.relight(session, &light.windows(&lit))?);
         }
         let windows = self.easel.screen().windows(&seen);
         let pixels = windows.iter().map(|[from, to]| (to[0] - from[0]) * (to[1] - from[1])).sum();
-        self.redraw(session, &windows)?;
+        self.redraw(session, &windows, &changed)?;
         Ok(if windows.is_empty() { Drawn::Same } else { Drawn::Part(pixels) })
     }
 
@@ -320,34 +322,29 @@ impl Carving {
             self.relight(session, &light.windows(&[None]))?;
         }
         let windows = self.easel.screen().windows(&[None]);
-        self.redraw(session, &windows)?;
+        self.redraw(session, &windows, &[None])?;
         Ok(Drawn::Whole)
     }
 
-    /// Looks again from the light; where on the picture there is another light then.
+    /// Looks again from the light; where on the picture there may be another light then.
     fn relight(&mut self, session: &Session, windows: &[Window]) -> Asked<Vec<Reach>> {
-        let mut parts = Vec::with_capacity(windows.len());
-        {
-            let _phase = session.interrupt.phase("compile");
-            for &window in windows {
-                let shape = self.shape(session, |s| meets(&s.lit_near, window)).map_err(|told| vec![told])?;
-                parts.push((window, shape));
-            }
-        }
+        let base = self.base_here(session).map_err(|told| vec![told])?;
         let _phase = session.interrupt.phase("shadows");
-        self.easel.relight(&parts, &session.interrupt).map_err(|_| vec![cancelled()])
+        let Self { easel, local, strokes, studio, .. } = self;
+        let near = Near { local, strokes, studio, base, limits: &session.limits };
+        let shape = |window: Window| near.shape(|s| meets(&s.lit_near, window));
+        easel.relight(windows, &shape, &session.interrupt).map_err(|told| vec![told])
     }
 
-    fn redraw(&mut self, session: &Session, windows: &[Window]) -> Asked<()> {
-        let mut parts = Vec::with_capacity(windows.len());
-        {
-            let _phase = session.interrupt.phase("compile");
-            for &window in windows {
-                parts.push((window, self.thing(session, window).map_err(|told| vec![told])?));
-            }
-        }
+    /// Draws pieces of the picture anew; the workpiece itself may have changed at some places.
+    fn redraw(&mut self, session: &Session, windows: &[Window], changed: &[Reach]) -> Asked<()> {
+        let base = self.base_here(session).map_err(|told| vec![told])?;
+        let look = Thing::opaque(self.shape(session, |_| false).map_err(|told| vec![told])?, self.studio.paint.clone());
         let _phase = session.interrupt.phase("picture");
-        self.easel.redraw(&parts, &session.interrupt).map_err(|_| vec![cancelled()])?;
+        let Self { easel, local, strokes, studio, .. } = self;
+        let near = Near { local, strokes, studio, base, limits: &session.limits };
+        let shape = |window: Window| near.shape(|s| meets(&s.seen_near, window));
+        easel.redraw(windows, (&look, &shape), changed, &session.interrupt).map_err(|told| vec![told])?;
         self.torn = false;
         Ok(())
     }
@@ -386,15 +383,29 @@ impl Carving {
                 stroke.lit_near = light.and_then(|light| light.reach(near));
             }
         }
+        let limit = session.limits.program_operations;
+        let name = self.studio.name.clone();
+        let too_many = || vec![too_large(&name, &format!("more than {limit} operations"))];
         let mut before = self.strokes.last().map_or(self.base.1, |last| last.nodes.1);
         for (id, form) in forms {
             let after = self.node_of(session, id).ok_or_else(|| vec![self.gone()])?;
+            let link = self.local.link(&session.graph, (before, after), limit).ok_or_else(too_many)?;
             let reach = form.frame.place(self.box_of(session, &form.tool, form.blend)?);
             let near = form.frame.place(self.box_of(session, &form.tool, form.blend + 2.0 * widest)?);
             let (seen, seen_near) = (screen.reach(reach), screen.reach(near));
             let lit_near = light.and_then(|light| light.reach(near));
             self.numbers.insert(id, self.strokes.len());
-            self.strokes.push(Stroke { id, nodes: (before, after), form, reach, seen, near, seen_near, lit_near });
+            self.strokes.push(Stroke {
+                id,
+                nodes: (before, after),
+                link,
+                form,
+                reach,
+                seen,
+                near,
+                seen_near,
+                lit_near,
+            });
             before = after;
         }
         Ok(())
@@ -422,23 +433,18 @@ impl Carving {
         errors::gone(&self.studio.name)
     }
 
-    /// The object with those strokes alone that some part of the picture sees.
-    fn thing(&mut self, session: &Session, window: Window) -> Result<Thing, Diagnostic> {
-        let shape = self.shape(session, |s| meets(&s.seen_near, window))?;
-        Ok(Thing::opaque(shape, self.studio.paint.clone()))
-    }
-
     /// The object with some of the strokes.
     fn shape(&mut self, session: &Session, with: impl Fn(&Stroke) -> bool) -> Result<Shape, Diagnostic> {
-        let chain: Vec<_> = self.strokes.iter().filter(|s| with(s)).map(|s| s.nodes).collect();
+        let base = self.base_here(session)?;
+        let Self { local, strokes, studio, .. } = self;
+        Near { local, strokes, studio, base, limits: &session.limits }.shape(with)
+    }
+
+    /// The workpiece in the store.
+    fn base_here(&mut self, session: &Session) -> Result<NodeId, Diagnostic> {
         let limit = session.limits.program_operations;
-        let too_large = |why: String| too_large(&self.studio.name, &why);
-        let node = self.local.chain(&session.graph, self.base.1, &chain, limit);
-        let node = node.ok_or_else(|| too_large(format!("more than {limit} operations")))?;
-        let graph = self.local.graph();
-        let program = Program::compile(graph, node, &self.studio.inputs, Demand::Sign, &session.limits);
-        let program = program.map_err(|error| too_large(error.to_string()))?;
-        Ok(Shape { precision: self.studio.precision, ..Shape::new(program, 3, self.studio.fixed.clone()) })
+        let base = self.local.take(&session.graph, self.base.1, limit);
+        base.ok_or_else(|| too_large(&self.studio.name, &format!("more than {limit} operations")))
     }
 
     /// Where a tool is about the origin, with what is at most `more` beyond its boundary by its own values.
@@ -479,6 +485,26 @@ impl Carving {
     fn evaluated(&self, session: &mut Session, text: &str) -> Asked<NodeId> {
         let node = session.function_of("<tool>", &format!("tr_shift({text}, [0, 0, 0])"))?;
         node.ok_or_else(|| vec![errors::no_tool(text, "it is no function of the coordinates")])
+    }
+}
+
+/// What shapes of the object near some place are made of.
+struct Near<'a> {
+    local: &'a Local,
+    strokes: &'a [Stroke],
+    studio: &'a Studio,
+    base: NodeId,
+    limits: &'a Limits,
+}
+
+impl Near<'_> {
+    /// The object with some of the strokes.
+    fn shape(&self, with: impl Fn(&Stroke) -> bool) -> Result<Shape, Diagnostic> {
+        let links = self.strokes.iter().filter(|s| with(s)).map(|s| &s.link);
+        let (graph, node, _) = self.local.chain(self.base, links, None);
+        let program = Program::compile(&graph, node, &self.studio.inputs, Demand::Sign, self.limits);
+        let program = program.map_err(|error| too_large(&self.studio.name, &error.to_string()))?;
+        Ok(Shape { precision: self.studio.precision, ..Shape::new(program, 3, self.studio.fixed.clone()) })
     }
 }
 

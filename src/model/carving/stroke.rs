@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::local::Link;
 use crate::field::NodeId;
 use crate::model::definition::{Definition, DefinitionId};
 use crate::model::session::Session;
@@ -35,6 +36,8 @@ pub struct Stroke {
     pub id: DefinitionId,
     /// The object before it and after it.
     pub nodes: (NodeId, NodeId),
+    /// What it does with the object before it.
+    pub link: Link,
     /// What it says.
     pub form: Form,
     /// Outside of this box it changes no sign.
