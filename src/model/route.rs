@@ -40,6 +40,8 @@ pub struct Question<'a> {
     pub centre: Option<&'a [f64]>,
     /// Another guess at a centre: the middle of the modelling space.
     pub hint: Option<&'a [f64]>,
+    /// Whether forms and equations are written: for an object of thousands of parts that takes longer than all else.
+    pub told: bool,
 }
 
 /// An object that is a star.
@@ -51,7 +53,7 @@ pub struct Star {
     pub leaves: usize,
     /// The terms of all of them.
     pub terms: usize,
-    /// The equations: a form of each leaf, the gauge, the boundary.
+    /// The equations, if they were asked for: a form of each leaf, the gauge, the boundary.
     pub equations: Vec<String>,
 }
 
@@ -62,7 +64,7 @@ pub struct Refusal {
     pub centre: Vec<f64>,
     /// What is in the way.
     pub reason: Reason,
-    /// Its form, if it has one that is short enough to be read.
+    /// Its form, if it was asked for and is short enough to be read.
     pub form: Option<String>,
 }
 
@@ -141,7 +143,7 @@ fn about(
     let refused = |rays: &Rays<'_>, reason: Reason, form: Option<&RayForm>| Refusal {
         centre: centre.to_vec(),
         reason,
-        form: form.and_then(|form| written(rays, form, question.axes)),
+        form: form.filter(|_| question.told).and_then(|form| written(rays, form, question.axes)),
     };
     let found = match rays.star(question.node) {
         Ok(found) => found,
@@ -174,7 +176,7 @@ fn about(
         Ok(_) => Ok(Star {
             leaves: found.leaves.len(),
             terms: found.leaves.iter().map(|form| form.terms().len()).sum(),
-            equations: equations(&rays, &found, question.axes),
+            equations: if question.told { equations(&rays, &found, question.axes) } else { Vec::new() },
             gauge,
         }),
         Err(doubt) => {
@@ -394,7 +396,7 @@ impl Session {
         if let Some(told) = wrong_centre(object, axes.len()) {
             return Err(vec![told]);
         }
-        let question = Question { node, axes: &axes, fixed: &fixed, centre, hint: middle.as_deref() };
+        let question = Question { node, axes: &axes, fixed: &fixed, centre, hint: middle.as_deref(), told: true };
         let cancelled = |_| vec![super::lower::cancelled()];
         let found = star(&self.graph, question, &self.limits, &self.interrupt).map_err(cancelled)?;
         let (mut shown, mut part) = (String::new(), None);

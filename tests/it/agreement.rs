@@ -53,6 +53,7 @@ fn taken(session: &mut Session, name: &str) -> Option<(Subject, Shape, Star)> {
         fixed: &subject.fixed,
         centre: subject.centre.as_deref(),
         hint: Some(&middle),
+        told: false,
     };
     let star = star(session.graph(), question, &limits, &interrupt).expect("nobody stops it").ok()?;
     let inside = star.gauge.centre.iter().zip(subject.bounds()).all(|(c, [lo, hi])| lo < *c && *c < hi);
@@ -182,7 +183,7 @@ fn star_and_cube_routes_agree_on_every_example() {
 }
 
 /// Gamma of a quarter and of three quarters, which the volume of `x^4 + y^4 + z^4 <= 1` has.
-const GAMMA: [f64; 2] = [3.625_609_908_221_908_4, 1.225_416_702_465_177_6];
+const GAMMA: [f64; 2] = [3.625_609_908_221_908, 1.225_416_702_465_177_6];
 
 /// Stars, whether creases are to be shown as they are, the route that measures them, and in closed form volume, surface, a coordinate of the
 /// centre and an entry of the inertia.

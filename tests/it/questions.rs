@@ -308,7 +308,9 @@ fn single_precision_is_a_preview_of_the_same_object() {
     let scripts = SOLIDS.iter().map(|solid| solid.1).chain([wild]);
     for script in scripts {
         let at = |precision| {
-            let view = View { cells: Cells::Along(40), precision, ..View::default() };
+            // Rays are measured in double precision alone.
+            let route = request::Route::Cubes;
+            let view = View { cells: Cells::Along(40), precision, route, ..View::default() };
             let measured =
                 request::measure(&mut opened(script), &view).unwrap_or_else(|told| panic!("{script}: {told:?}"));
             let Dimension::Solid(solid, _) = measured.of else { panic!("{script}") };

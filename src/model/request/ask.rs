@@ -11,6 +11,7 @@ use crate::surface::figure::measure as measure_figure;
 use crate::surface::line::intervals;
 use crate::surface::marching::SurfaceError;
 use crate::surface::measure::{MeasureError, measure_as as measure_solid};
+use crate::surface::star::measure::Found;
 use crate::vm::Demand;
 
 use super::fields::{Sampled, Sampling};
@@ -20,7 +21,7 @@ use super::measured::{Dimension, Measured};
 use super::output::Output;
 use super::pictures;
 use super::space;
-use super::starred::{Way, measured};
+use super::starred::{Along, Way, measured};
 use super::subject::{Level, Place, Sequence, Subject};
 use super::together::subject;
 use super::told;
@@ -75,7 +76,8 @@ impl Session {
     fn breaks(&mut self, name: &str, subject: &Subject, centre: Option<&[f64]>) -> Option<crate::source::Span> {
         let axes: Vec<Coordinate> = subject.axes.iter().map(|axis| axis.coordinate).collect();
         let centre = centre.or(subject.centre.as_deref());
-        let question = Question { node: subject.node, axes: &axes, fixed: &subject.fixed, centre, hint: None };
+        let question =
+            Question { node: subject.node, axes: &axes, fixed: &subject.fixed, centre, hint: None, told: false };
         let found = star(&self.graph, question, &self.limits, &self.interrupt).ok()?;
         let node = found.err()?.node()?;
         self.place_of_node(name, subject.node, node)
@@ -137,12 +139,22 @@ pub(in crate::model) fn dimension(
     }
     let grid = subject.grid(cells, limits)?;
     let cells = grid.cells.into_iter().max().unwrap_or_default();
-    if let Some((of, report, route)) = measured(subject, (shape, &grid, sharp), way, (graph, limits, interrupt))? {
-        notes.extend(told::of_report(subject, &report));
-        return Ok((of, notes, cells, route));
+    let mut route = if subject.axes.len() == 3 { "cubes" } else { "squares" }.to_owned();
+    let mut rays = None;
+    match measured(subject, (shape, &grid), way, (graph, limits, interrupt))? {
+        Some((Along::Solid(Found::All(all)), line)) => {
+            let triangles = all.topology.triangles;
+            return Ok((Dimension::Solid(all, triangles), notes, cells, line));
+        }
+        Some((Along::Plane(figure), line)) => return Ok((Dimension::Plane(figure), notes, cells, line)),
+        Some((Along::Solid(found), line)) => rays = Some((found, line)),
+        None => {}
     }
     let (of, report, is_settled) = if subject.axes.len() == 3 {
-        let measures = measure_solid(shape, &grid, sharp, limits, interrupt).map_err(|e| unmeasured(&e))?;
+        let mut measures = measure_solid(shape, &grid, sharp, limits, interrupt).map_err(|e| unmeasured(&e))?;
+        if let Some((_, line)) = rays.filter(|(found, _)| found.improve(&mut measures)) {
+            route = format!("{line}; the rest by cubes");
+        }
         let (report, is_settled) = (measures.report.clone(), measures.is_settled);
         let triangles = measures.topology.triangles;
         ((triangles > 0).then(|| Dimension::Solid(Box::new(measures), triangles)), report, is_settled)
@@ -154,8 +166,7 @@ pub(in crate::model) fn dimension(
     let Some(of) = of else { return Err(told::empty(subject, None, Some(&report))) };
     notes.extend(told::of_report(subject, &report));
     notes.extend((!is_settled).then(|| told::unsettled(subject)));
-    let route = if subject.axes.len() == 3 { "cubes" } else { "squares" };
-    Ok((of, notes, cells, route.to_owned()))
+    Ok((of, notes, cells, route))
 }
 
 pub(super) fn unmeasured(error: &MeasureError) -> Diagnostic {

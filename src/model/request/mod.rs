@@ -25,7 +25,6 @@ pub mod way;
 
 pub use crate::vm::Precision;
 pub(in crate::model) use ask::dimension;
-pub(in crate::model) use starred::Way;
 pub use ask::{measure, sample, sampling, write};
 pub use fields::{Sampled, Sampling};
 pub(super) use info::role;
@@ -36,6 +35,7 @@ pub use output::{FORMATS, Format, Kind, Output, Target};
 pub use paint::{colours_at, colours_of};
 pub use preview::{headline, preview, shrunk};
 pub(super) use space::Searched;
+pub(in crate::model) use starred::Way;
 pub(super) use studio::{Studio, studio};
 pub use subject::{Sequence, Subject};
 pub use together::subject;

@@ -8,18 +8,18 @@ use crate::model::route::{Question, Refusal, Star, point, star};
 use crate::reuse::Digest;
 use crate::surface::check::check;
 use crate::surface::contour::Contour;
+use crate::surface::figure::Figure;
 use crate::surface::grid::Grid;
 use crate::surface::marching::Report;
 use crate::surface::measure::Measures;
 use crate::surface::mesh::Mesh;
 use crate::surface::sampler::Counters;
-use crate::surface::star::measure::{figure, solid};
+use crate::surface::star::measure::{Found, figure, solid};
 use crate::surface::star::mesh::{Made, MeshError, Space, following, outline, outline_following, over};
 use crate::vm::{Precision, Shape};
 
 use super::ask::unmeasured;
 use super::make::{Making, cancelled};
-use super::measured::Dimension;
 use super::subject::Subject;
 use super::way::{Choice, Ready, Route};
 
@@ -166,7 +166,8 @@ fn placed(
         let help = "give one number for each axis, in the order X, Y, Z";
         return Err(Diagnostic::error("wrong-centre", title).category(Category::Usage).help(help));
     }
-    let question = Question { node, axes: &axes, fixed: &fixed, centre, hint: Some(&middle) };
+    let told = route == Route::Star;
+    let question = Question { node, axes: &axes, fixed: &fixed, centre, hint: Some(&middle), told };
     let star = match star(graph, question, limits, interrupt)? {
         Ok(star) => star,
         Err(refusal) if route == Route::Auto => return Ok(Err(Some(refusal))),
@@ -187,16 +188,25 @@ fn placed(
     Ok(Ok(Placed { star, space: Space { ranges }, length, most }))
 }
 
-/// What is measured of a star, and a line about the rays; nothing where cells are the better way to measure it.
+/// What rays tell of a star.
+#[derive(Clone, Debug)]
+pub(super) enum Along {
+    /// In space.
+    Solid(Found),
+    /// In the plane.
+    Plane(Box<Figure>),
+}
+
+/// What is measured of a star, and a line about the rays; nothing where they cannot measure it.
 ///
 /// # Errors
 /// If the route is asked for and cannot be taken.
 pub(super) fn measured(
     subject: &Subject,
-    (shape, grid, sharp): (&Shape, &Grid, bool),
+    (shape, grid): (&Shape, &Grid),
     way: Way<'_>,
     (graph, limits, interrupt): (&Graph, &Limits, &Interrupt),
-) -> Result<Option<(Dimension, Report, String)>, Diagnostic> {
+) -> Result<Option<(Along, String)>, Diagnostic> {
     if shape.precision == Precision::Single {
         return Ok(None);
     }
@@ -206,32 +216,30 @@ pub(super) fn measured(
     let gauge = &placed.star.gauge;
     let tell = |to: &mut Digest| {
         shape.tell(to);
-        to.shown(&("rays", grid, sharp, &gauge.centre, limits.memory_bytes, limits.search_operations));
+        to.shown(&("rays", grid, &gauge.centre, limits.memory_bytes, limits.search_operations));
     };
-    let make = || -> Result<Option<(Dimension, Report)>, Diagnostic> {
+    let make = || -> Result<Option<Along>, Diagnostic> {
         if subject.axes.len() == 3 {
-            let found = solid(gauge, shape, grid, sharp, limits, interrupt).map_err(|error| unmeasured(&error))?;
-            return Ok(found.map(|found| {
-                let (triangles, report) = (found.topology.triangles, found.report.clone());
-                (Dimension::Solid(Box::new(found), triangles), report)
-            }));
+            let found = solid(gauge, shape, grid, limits, interrupt).map_err(|error| unmeasured(&error))?;
+            return Ok(found.map(Along::Solid));
         }
-        let found = figure(gauge, shape, grid, sharp, interrupt).map_err(|error| unmeasured(&error.into()))?;
-        Ok(found.map(|found| {
-            let report = found.report.clone();
-            (Dimension::Plane(Box::new(found)), report)
-        }))
+        let found = figure(gauge, shape, grid, interrupt).map_err(|error| unmeasured(&error.into()))?;
+        Ok(found.map(|found| Along::Plane(Box::new(found))))
     };
     let found = interrupt.whole("measures", tell, |_| size_of::<Measures>(), make)?;
     if found.is_none() && way.route == Route::Star {
-        let title = format!("`{}` is not measured along rays: the space cuts it, or it has creases", subject.name);
+        let title = format!("`{}` is not measured along rays: the space cuts it, or it is too rough", subject.name);
         return Err(Diagnostic::error("not-measured", title)
             .category(Category::Result)
             .help("leave the route to `auto`: cells measure it"));
     }
-    Ok(found.map(|(found, report)| {
-        let line = format!("star, {} points on rays from {}", report.samples, point(&gauge.centre));
-        (found, report, line)
+    Ok(found.map(|found| {
+        let points = match &found {
+            Along::Solid(Found::All(all)) => all.report.samples,
+            Along::Solid(Found::Integrals(found)) => found.points,
+            Along::Plane(found) => found.report.samples,
+        };
+        (found, format!("star, {points} points on rays from {}", point(&gauge.centre)))
     }))
 }
 

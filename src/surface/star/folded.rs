@@ -150,11 +150,8 @@ impl Kept {
             .into_iter()
             .map(|place| Change { place, old: self.operands[place as usize].clone(), new: new.pop() })
             .collect();
-        let mut next = self.operands.len() as u32;
-        for operand in new.into_iter().rev() {
-            changes.push(Change { place: next, old: None, new: Some(operand) });
-            next += 1;
-        }
+        let more = (self.operands.len() as u32..).zip(new.into_iter().rev());
+        changes.extend(more.map(|(place, operand)| Change { place, old: None, new: Some(operand) }));
         Some(changes)
     }
 

@@ -29,11 +29,11 @@ const NODES: usize = 7;
 /// The places of the rule between -1 and 1, and their weights.
 const RULE: [[f64; 2]; NODES] = [
     [-0.949_107_912_342_758_5, 0.129_484_966_168_869_7],
-    [-0.741_531_185_599_394_4, 0.279_705_391_489_276_66],
-    [-0.405_845_151_377_397_17, 0.381_830_050_505_118_93],
+    [-0.741_531_185_599_394_5, 0.279_705_391_489_276_64],
+    [-0.405_845_151_377_397_2, 0.381_830_050_505_118_9],
     [0.0, 0.417_959_183_673_469_4],
-    [0.405_845_151_377_397_17, 0.381_830_050_505_118_93],
-    [0.741_531_185_599_394_4, 0.279_705_391_489_276_66],
+    [0.405_845_151_377_397_2, 0.381_830_050_505_118_9],
+    [0.741_531_185_599_394_5, 0.279_705_391_489_276_64],
     [0.949_107_912_342_758_5, 0.129_484_966_168_869_7],
 ];
 /// Panels that one task evaluates.
@@ -44,17 +44,15 @@ const AIM: f64 = 1e-12;
 const PART: f64 = 0.9;
 /// Evaluations at most, in those of the first panels.
 const PATIENCE: u64 = 3;
-/// The error that the first panels may leave if more of them shall bring it below a wanted one: they bring three or four digits.
-const HOPELESS: f64 = 1e4;
+/// Where the first panels leave a larger error, more of them do not help.
+const HOPELESS: f64 = 0.05;
 /// The error beyond which there must be creases, or what is like them, and how much larger the error may be there than the difference.
 const CREASED: f64 = 1e-8;
 const CHANCE: f64 = 4.0;
 /// What rounding leaves, as a share.
 const ROUNDING: f64 = 2e-13;
-/// The error up to which a mesh with its creases as they are is not better.
-const SHARP: f64 = 1e-7;
-/// The error up to which a bevelled mesh is not better.
-const BEVELLED: f64 = 5e-3;
+/// The error up to which no cells are asked.
+const SURE: f64 = 1e-7;
 /// Volume, surface, and the moments of first and second order of three axes.
 const SUMS: usize = 11;
 
@@ -251,8 +249,8 @@ fn split<const N: usize>(
     Ok(Some(parts))
 }
 
-/// What a star encloses, with first panels whose nodes lie about as close as cells, so many along the longest side, and an error that is
-/// `wanted` (the work ends early where it will not be reached); nothing if it reaches out of the space.
+/// What a star encloses, with first panels whose nodes lie about as close as cells, so many along the longest side; nothing if it reaches
+/// out of the space.
 ///
 /// # Errors
 /// [`Cancelled`] soon after the interrupt was set.
@@ -260,7 +258,6 @@ pub fn enclosed<const N: usize>(
     gauge: &Gauge,
     space: &[[f64; 2]],
     cells: usize,
-    wanted: f64,
     interrupt: &Interrupt,
 ) -> Result<Option<Enclosed<N>>, Cancelled> {
     let along = (cells / if N == 2 { 4 } else { 16 }).max(2);
@@ -276,7 +273,7 @@ pub fn enclosed<const N: usize>(
     loop {
         let whole = added(&panels, |panel| &panel.sums);
         let total: f64 = panels.iter().map(|panel| panel.error(&whole)).sum();
-        let is_hopeless = N > 2 && total > HOPELESS * wanted;
+        let is_hopeless = N > 2 && total > HOPELESS;
         if is_hopeless || total.is_nan() || total <= AIM || points >= most {
             return Ok(Some(finished(gauge, &panels, points)));
         }
@@ -337,9 +334,31 @@ fn finished<const N: usize>(gauge: &Gauge, panels: &[Panel<N>], points: u64) -> 
     }
 }
 
-/// The error up to which the integrals are better than what the cells of the other route would give.
-fn wanted(sharp: bool) -> f64 {
-    if sharp { SHARP } else { BEVELLED }
+/// What rays tell of a solid.
+#[derive(Clone, Debug)]
+pub enum Found {
+    /// Everything.
+    All(Box<Measures>),
+    /// The integrals alone, which creases leave few digits: cells may do better, and tell the rest.
+    Integrals(Box<Enclosed<3>>),
+}
+
+impl Found {
+    /// Puts the integrals into what cells tell, if they are nearer; whether they are.
+    #[must_use]
+    pub fn improve(&self, measures: &mut Measures) -> bool {
+        let Self::Integrals(found) = self else { return false };
+        let share = |of: Estimate| of.error / of.value;
+        let is_cut = measures.report.cut.iter().flatten().any(|cut| *cut);
+        let nearer = found.error < share(measures.volume) + share(measures.area) && !is_cut;
+        if nearer {
+            measures.volume = found.volume;
+            measures.area = found.surface;
+            measures.centroid = found.centroid;
+            measures.inertia = found.inertia;
+        }
+        nearer
+    }
 }
 
 fn report(points: u64) -> Report {
@@ -347,7 +366,7 @@ fn report(points: u64) -> Report {
     Report { counters, samples: points, ..Report::default() }
 }
 
-/// Measures a star in space; nothing where cells do better: the space cuts it, or it has creases that they are to show as they are.
+/// Measures a star in space; nothing where the space cuts it.
 ///
 /// # Errors
 /// As those of the other route.
@@ -355,20 +374,25 @@ pub fn solid(
     gauge: &Gauge,
     shape: &Shape,
     grid: &Grid,
-    sharp: bool,
     limits: &Limits,
     interrupt: &Interrupt,
-) -> Result<Option<Measures>, MeasureError> {
+) -> Result<Option<Found>, MeasureError> {
     let ranges: Vec<[f64; 2]> = (0..3).map(|d| [grid.lo[d], grid.hi[d]]).collect();
     let cells = grid.cells.into_iter().max().unwrap_or(1);
-    let Some(found) = enclosed::<3>(gauge, &ranges, cells, wanted(sharp), interrupt)? else { return Ok(None) };
+    let Some(found) = enclosed::<3>(gauge, &ranges, cells, interrupt)? else { return Ok(None) };
+    if found.error.is_nan() || found.error > HOPELESS {
+        return Ok(None);
+    }
+    if found.error > SURE {
+        return Ok(Some(Found::Integrals(Box::new(found))));
+    }
     let Some(reaches) = bounds(shape, grid, limits, interrupt)? else { return Ok(None) };
     let is_cut = |d: usize| {
         let [lo, hi] = ranges[d];
         let [least, most] = reaches[d];
         least.value - least.error <= lo || most.value + most.error >= hi
     };
-    if found.error.is_nan() || found.error > wanted(sharp) || (0..3).any(is_cut) {
+    if (0..3).any(is_cut) {
         return Ok(None);
     }
     // About as many vertices as cells would give.
@@ -389,8 +413,8 @@ pub fn solid(
         let own = mesh.triangles.len();
         bends.push(curvature::of_mesh(shape, &mesh, own, grid.cell(), interrupt).map_err(SurfaceError::from)?);
     }
-    let bend = |which: usize| Bend::from([0, 1, 2].map(|k| bends[k].map(|of| of[which])), found.error < SHARP);
-    Ok(Some(Measures {
+    let bend = |which: usize| Bend::from([0, 1, 2].map(|k| bends[k].map(|of| of[which])), found.error < SURE);
+    Ok(Some(Found::All(Box::new(Measures {
         volume: found.volume,
         area: found.surface,
         centroid: found.centroid,
@@ -401,7 +425,7 @@ pub fn solid(
         is_settled: true,
         curvature: bend(0).zip(bend(1)).map(|(mean, gauss)| [mean, gauss]),
         report: report(points),
-    }))
+    }))))
 }
 
 /// Measures a star in the plane, as [`solid`] does.
@@ -412,13 +436,12 @@ pub fn figure(
     gauge: &Gauge,
     shape: &Shape,
     grid: &Grid,
-    sharp: bool,
     interrupt: &Interrupt,
 ) -> Result<Option<Figure>, SurfaceError> {
     let ranges: Vec<[f64; 2]> = (0..2).map(|d| [grid.lo[d], grid.hi[d]]).collect();
     let cells = grid.cells.into_iter().max().unwrap_or(1);
-    let Some(found) = enclosed::<2>(gauge, &ranges, cells, wanted(sharp), interrupt)? else { return Ok(None) };
-    if found.error.is_nan() || found.error > wanted(sharp) {
+    let Some(found) = enclosed::<2>(gauge, &ranges, cells, interrupt)? else { return Ok(None) };
+    if found.error.is_nan() || found.error > SURE {
         return Ok(None);
     }
     let space = Space { ranges };
@@ -442,7 +465,7 @@ pub fn figure(
         components: 1,
         holes: 0,
         is_settled: true,
-        curvature: Bend::from([bends[0], bends[1], bends[2]], found.error < SHARP),
+        curvature: Bend::from([bends[0], bends[1], bends[2]], found.error < SURE),
         points: corners,
         report: report(points),
     }))
