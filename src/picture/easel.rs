@@ -20,6 +20,12 @@ use crate::surface::boxes::points;
 use crate::surface::sampler::Counters;
 use crate::vm::Shape;
 
+/// A point of the surface, and the normal there.
+pub type PointAndNormal = ([f64; 3], [f64; 3]);
+
+/// An object, and as far as which depth it is known.
+type Known = (Shape, f64);
+
 /// What an object is in a piece, as far as a depth at least: what is farther away may be left out.
 pub type Shapes<'a, E> = dyn Fn(Window, f64) -> Result<Shape, E> + Sync + 'a;
 
@@ -43,7 +49,7 @@ pub struct Easel {
 struct Piece {
     window: Window,
     /// The object there, once it was needed, and as far as which depth.
-    shape: Option<(Shape, f64)>,
+    shape: Option<Known>,
     /// Which of its tiles are to be looked at anew.
     touched: Vec<bool>,
     /// What was known of it.
@@ -254,9 +260,9 @@ impl Easel {
         let (met, counters) = if touched.contains(&true) {
             let seed = Seed { touched: &touched, hits: &before.met.1 };
             let far = deepest(&before.met.1) + extent;
-            let (object, met) = self.cast((window, shape), far, (aim, Some(seed)), interrupt)?;
-            made = object;
-            met
+            let (object, met, counters) = self.cast((window, shape), far, (aim, Some(seed)), interrupt)?;
+            made = Some(object);
+            (met, counters)
         } else {
             (before.met.clone(), Counters::default())
         };
@@ -280,14 +286,14 @@ impl Easel {
         mut far: f64,
         (aim, seed): (Aim<'_>, Option<Seed<'_>>),
         interrupt: &Interrupt,
-    ) -> Result<(Option<(Shape, f64)>, (Met, Counters)), E> {
+    ) -> Result<(Known, Met, Counters), E> {
         let mut counters = Counters::default();
         loop {
             let object = shape(window, far)?;
             let (met, cost) = search_in(&object, &self.scene(), window, aim, seed, interrupt)?;
             counters.add(cost);
             if far == f64::INFINITY || deepest(&met.1) <= far {
-                return Ok((Some((object, far)), (met, counters)));
+                return Ok(((object, far), met, counters));
             }
             far = f64::INFINITY;
         }
@@ -314,7 +320,7 @@ impl Easel {
             };
             let far = piece.shape.as_ref().map_or_else(|| deepest(&piece.met.1), |(_, far)| *far);
             let aim = Aim { pattern: Pattern::Shares(brush.fine, wanted), tolerance: EXACT, normals: true };
-            let (_, (met, cost)) = self.cast((piece.window, &known), far, (aim, None), interrupt)?;
+            let (_, met, cost) = self.cast((piece.window, &known), far, (aim, None), interrupt)?;
             piece.counters.add(cost);
             for (places, hits) in met.0.chunks_exact(rays).zip(met.1.chunks_exact(rays)) {
                 let [x, y] = [0, 1].map(|k| places[0][k] as usize - from[k]);
@@ -373,7 +379,7 @@ impl Easel {
         thing: &Thing,
         pixel: [usize; 2],
         interrupt: &Interrupt,
-    ) -> Result<Option<([f64; 3], [f64; 3])>, Cancelled> {
+    ) -> Result<Option<PointAndNormal>, Cancelled> {
         let scene = self.scene();
         let mut marked = vec![false; scene.rays[0] * scene.rays[1]];
         marked[pixel[1] * scene.rays[0] + pixel[0]] = true;
