@@ -320,9 +320,12 @@ fn roots_show_what_the_search_shows() {
             (Some(a), Some(b)) => a.1 != b.1 || (a.0 - b.0).abs() > 1e-6,
             (a, b) => a.is_some() != b.is_some(),
         });
-        // The search may pass by what a ray merely grazes.
-        let count = differing.count();
-        assert!(count <= 2, "{text}: {count} rays differ");
+        // The search may pass by what a ray merely grazes, and then meets what lies behind it; roots may not.
+        let (count, behind) = differing.fold((0, 0), |(count, behind), (roots, search)| {
+            let depth = |hit: &Option<(f64, bool)>| hit.map_or(f64::INFINITY, |hit| hit.0);
+            (count + 1, behind + usize::from(depth(roots) > depth(search)))
+        });
+        assert!(count <= 4 && behind <= 2, "{text}: {count} rays differ, {behind} of them behind those of the search");
     }
     for text in
         ["1 - x1**2 - SIN(x2) - x3**2", "1 - x1**6 - x2**2 - x3**2", "1 - ABS(x1) - x2**2", "1/(x1 + 3) - x2**2"]
