@@ -113,9 +113,8 @@ fn bernstein<const N: usize, const L: usize>(c: [&[f64; L]; N], from: &[f64; L],
     }
     for k in 1..N {
         for j in (k..N).rev() {
-            for i in 0..L {
-                all[j][i] += all[j - 1][i];
-            }
+            let before = all[j - 1];
+            all[j].iter_mut().zip(before).for_each(|(value, before)| *value += before);
         }
     }
     all

@@ -36,7 +36,15 @@ impl Frustum {
         let size =
             (0..3).map(|k| lo[k].abs().max(hi[k].abs()).max(scene.camera.eye[k].abs())).fold(far.abs(), f64::max);
         let window = [[0; 2], scene.rays];
-        Self { scene, near, far, cells: cells.next_multiple_of(LEAF_DEPTH), slack: 1e-13 * size, window, forgets: false }
+        Self {
+            scene,
+            near,
+            far,
+            cells: cells.next_multiple_of(LEAF_DEPTH),
+            slack: 1e-13 * size,
+            window,
+            forgets: false,
+        }
     }
 
     /// The same for a part of the picture: its first column and row, and one past its last ones; it begins at multiples of four tiles.
