@@ -136,7 +136,6 @@ const WITHOUT: &[(&str, &str)] = &[
     ("broken", "follows another error, and is told only at the prompt"),
     ("excused", "is never shown: its cause is told instead"),
     ("cancelled", "needs a key of the user; tests/it/interrupts.rs"),
-    ("command", "is of the prompt; tests/it/repl.rs"),
     ("settings", "is of a file of the user; tests/it/cli.rs"),
     ("cell-length", "is refused by the command line first"),
     ("view", "is refused by the command line first"),
@@ -161,6 +160,7 @@ const WITHOUT: &[(&str, &str)] = &[
     ("palette", "is refused by the command line first"),
     ("not-written", "needs a disk that fails"),
     ("too-deep", "needs a tree deeper than calls may be; tests/it/limits.rs"),
+    ("no-name", "would be a fault of the program"),
 ];
 
 /// The codes of a source: the text that is the first argument of what makes a diagnostic.
@@ -192,7 +192,7 @@ fn each_code_has_a_golden_text() {
         }
     }
     assert!(all.len() > 100, "{all:?}");
-    let golden = ["syntax", "errors", "geometry", "requests"]
+    let golden = ["syntax", "errors", "geometry", "requests", "carving"]
         .map(|name| std::fs::read_to_string(root.join(format!("tests/it/diagnostics/{name}.txt"))).unwrap())
         .concat();
     let has = |code: &str| golden.contains(&format!("[{code}]"));
