@@ -3,7 +3,7 @@
 //! there are. Knows no half-spaces.
 //!
 //! A sum is kept in twice the digits, so that a term goes as it came and nothing drifts; of a p-norm it is the sum of the powers. The
-//! least is kept with the runner-up, as [A96] 5.2 has it for an infinite blending parameter. Where the digits run out (the term that goes was
+//! least is kept with the runner-up, as \[A96\] 5.2 has it for an infinite blending parameter. Where the digits run out (the term that goes was
 //! nearly all of the sum) or the runner-up is not known, all operands are evaluated anew at that vertex: the more operands, the fewer
 //! vertices. An R-function of many operands is no fold: its value depends on the order, all operands behind the one that changes
 //! would have to be put on again, so it is evaluated anew.
