@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use rustc_hash::FxHashMap;
+
 use super::graph::{Coordinate, Graph, Node, NodeId, SharedLeaf};
 use crate::number::{Algebra, Binary, Real, Ternary, Unary};
 
@@ -102,6 +104,29 @@ impl Graph {
                 self.map(operand(*body), &mapping)
             }
         }
+    }
+
+    /// A node of another graph, with all that it reads, in this one; `known` says which nodes are here already, and what they are.
+    pub fn copied(&mut self, from: &Self, root: NodeId, known: &mut FxHashMap<NodeId, NodeId>) -> NodeId {
+        let mut open = vec![root];
+        while let Some(&node) = open.last() {
+            if known.contains_key(&node) {
+                open.pop();
+                continue;
+            }
+            let before = open.len();
+            from.node(node).for_each_operand(|operand| {
+                if !known.contains_key(&operand) {
+                    open.push(operand);
+                }
+            });
+            if open.len() == before {
+                open.pop();
+                let made = self.rebuilt(from.node(node), |operand| known[&operand]);
+                known.insert(node, made);
+            }
+        }
+        known[&root]
     }
 
     /// `body AT (mapping)`: each listed coordinate replaced by its expression, all at once. A coordinate that is listed twice takes

@@ -113,24 +113,6 @@ fn copied(graph: &Graph, root: NodeId, instead: Option<(NodeId, Coordinate)>) ->
     if let Some((node, coordinate)) = instead {
         names.insert(node, copy.coordinate(coordinate));
     }
-    let mut open = vec![root];
-    while let Some(&node) = open.last() {
-        if names.contains_key(&node) {
-            open.pop();
-            continue;
-        }
-        let before = open.len();
-        graph.node(node).for_each_operand(|operand| {
-            if !names.contains_key(&operand) {
-                open.push(operand);
-            }
-        });
-        if open.len() == before {
-            open.pop();
-            let made = copy.rebuilt(graph.node(node), |operand| names[&operand]);
-            names.insert(node, made);
-        }
-    }
-    let root = names[&root];
+    let root = copy.copied(graph, root, &mut names);
     (copy, root)
 }

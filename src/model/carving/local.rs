@@ -43,10 +43,10 @@ impl Local {
         }
         // Maps are expanded once, as a compiler does it, in a graph that holds nothing else.
         let mut alone = Graph::new();
-        let root_alone = copy(from, root, &mut alone, &mut FxHashMap::default());
+        let root_alone = alone.copied(from, root, &mut FxHashMap::default());
         let here = match expand(&alone, &[root_alone], limit).ok()? {
-            Some((expanded, roots)) => copy(&expanded, roots[0], &mut self.store, &mut FxHashMap::default()),
-            None => copy(&alone, root_alone, &mut self.store, &mut FxHashMap::default()),
+            Some((expanded, roots)) => self.store.copied(&expanded, roots[0], &mut FxHashMap::default()),
+            None => self.store.copied(&alone, root_alone, &mut FxHashMap::default()),
         };
         self.known.insert(root, here);
         Some(here)
@@ -90,67 +90,24 @@ impl Local {
         further: Option<NodeId>,
     ) -> (Graph, NodeId, Option<NodeId>) {
         let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
-        let mut chain = copy(&self.store, base, &mut graph, &mut known);
+        let mut chain = graph.copied(&self.store, base, &mut known);
         let mut own: Vec<NodeId> = Vec::new();
         for Link(operations) in links {
             own.clear();
             for (operation, operands) in operations {
-                let mut operands = operands.iter().map(|operand| match operand {
+                let (mut before, mut after) = (Vec::new(), Vec::new());
+                operation.for_each_operand(|operand| before.push(operand));
+                after.extend(operands.iter().map(|operand| match operand {
                     From::Before => chain,
                     From::Own(place) => own[*place],
-                    From::Store(node) => copy(&self.store, *node, &mut graph, &mut known),
-                });
-                let operands: Vec<NodeId> = operands.by_ref().collect();
-                let mut next = operands.into_iter();
-                let new = with_operands(operation, |e| next.next().unwrap_or(e));
-                own.push(graph.intern(new));
+                    From::Store(node) => graph.copied(&self.store, *node, &mut known),
+                }));
+                let place = |operand| before.iter().position(|other| *other == operand);
+                own.push(graph.rebuilt(operation, |operand| place(operand).map_or(operand, |k| after[k])));
             }
             chain = own.last().copied().unwrap_or(chain);
         }
-        let further = further.map(|node| copy(&self.store, node, &mut graph, &mut known));
+        let further = further.map(|node| graph.copied(&self.store, node, &mut known));
         (graph, chain, further)
-    }
-}
-
-/// Copies a node and what it reads into another graph; `known` says what is there already.
-fn copy(from: &Graph, root: NodeId, to: &mut Graph, known: &mut FxHashMap<NodeId, NodeId>) -> NodeId {
-    if let Some(&there) = known.get(&root) {
-        return there;
-    }
-    let mut open = vec![root];
-    while let Some(&node) = open.last() {
-        let waiting = open.len();
-        from.node(node).for_each_operand(|e| {
-            if !known.contains_key(&e) {
-                open.push(e);
-            }
-        });
-        if open.len() == waiting {
-            open.pop();
-            let copied = with_operands(from.node(node), |e| known[&e]);
-            known.insert(node, to.intern(copied));
-        }
-    }
-    known[&root]
-}
-
-/// The same operation of other operands, which are asked for in the order of [`Node::for_each_operand`].
-fn with_operands(node: &Node, mut of: impl FnMut(NodeId) -> NodeId) -> Node {
-    match node {
-        Node::Constant(_) | Node::Coordinate(_) => node.clone(),
-        Node::Unary(op, a) => Node::Unary(*op, of(*a)),
-        Node::Binary(op, a, b) => {
-            let a = of(*a);
-            Node::Binary(*op, a, of(*b))
-        }
-        Node::Ternary(op, operands) => Node::Ternary(*op, operands.map(of)),
-        Node::Leaf(leaf, arguments) => Node::Leaf(leaf.clone(), arguments.iter().map(|e| of(*e)).collect()),
-        Node::Region(region, output, arguments) => {
-            Node::Region(region.clone(), *output, arguments.iter().map(|e| of(*e)).collect())
-        }
-        Node::Map(body, mapping) => {
-            let body = of(*body);
-            Node::Map(body, mapping.iter().map(|(c, e)| (*c, of(*e))).collect())
-        }
     }
 }
